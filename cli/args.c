@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: MIT */
+/* Single role: the command line. Options of functionals, refiners and exporters, and the help about them, are made from the
+   library's tables. */
+#include "cli.h"
+
+#include <argp.h>
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *argp_program_bug_address = NULL;
+
+enum {
+  KEY_FIXED = 1000,
+  KEY_REPORT,
+  KEY_REFINE,
+  KEY_NO_REFINE,
+  KEY_NODES,
+  KEY_ITERATIONS,
+  KEY_THREADS,
+  KEY_FUNCTIONAL,
+  KEY_START,
+  KEY_NAME,
+  KEY_SURFACE,
+  KEY_NET,
+  KEY_JSON,
+  KEY_SCHEME,
+  KEY_COLOUR,
+  KEY_LIST,
+  KEY_PARAM = 2000 /* + number of a parameter in the list below */
+};
+
+/* A parameter name of the tables; several exporters may share one. */
+enum { MAX_NAMES = 64, MAX_EVENTS = 256 };
+typedef struct named_param {
+  const fs_param *param;
+  char doc[200];
+} named_param;
+
+/* Settings and -o in the order in which they came. */
+typedef struct event {
+  int32_t name;      /* of a parameter, or -1: an output */
+  const char *text;
+  bool is_surface;
+  const fs_measure *colour;
+} event;
+
+typedef struct parser {
+  arguments *arguments;
+  int32_t n_names, n_events;
+  named_param name[MAX_NAMES];
+  event event[MAX_EVENTS];
+  bool is_surface;
+  const fs_measure *colour, *first_colour;
+} parser;
+
+/* ---- parameters of the tables ------------------------------------------------------------------------------------ */
+
+static void add_params(parser *p, const char *owner, const fs_param *params) {
+  for (int i = 0; params != NULL && params[i].name != NULL; i++) {
+    int32_t n = 0;
+    char *doc;
+    size_t used;
+    while (n < p->n_names && strcmp(p->name[n].param->name, params[i].name) != 0) n++;
+    if (n == MAX_NAMES) return;
+    doc = p->name[n].doc;
+    if (n < p->n_names) { /* another owner */
+      used = strlen(doc);
+      snprintf(doc + used, sizeof p->name[n].doc - used, "; %s: likewise", owner);
+      continue;
+    }
+    p->name[p->n_names++].param = &params[i];
+    used = (size_t)snprintf(doc, sizeof p->name[n].doc, "%s: %s", owner, params[i].summary);
+    if (params[i].choices != NULL && used < sizeof p->name[n].doc)
+      snprintf(doc + used, sizeof p->name[n].doc - used, " (%s)", params[i].choices[(int)params[i].initial]);
+    else if (used < sizeof p->name[n].doc)
+      snprintf(doc + used, sizeof p->name[n].doc - used, " (%g)", params[i].initial);
+  }
+}
+
+static void collect_params(parser *p) {
+  for (int i = 0; fs_functionals[i] != NULL; i++) add_params(p, fs_functionals[i]->name, fs_functionals[i]->params);
+  for (int i = 0; fs_refiners[i] != NULL; i++) add_params(p, fs_refiners[i]->name, fs_refiners[i]->params);
+  for (int i = 0; fs_exporters[i] != NULL; i++) add_params(p, fs_exporters[i]->name, fs_exporters[i]->params);
+}
+
+static bool parse_value(const fs_param *param, const char *text, double *value) {
+  char *end;
+  for (int i = 0; param->choices != NULL && param->choices[i] != NULL; i++)
+    if (strcmp(param->choices[i], text) == 0) {
+      *value = i;
+      return true;
+    }
+  if (param->choices != NULL) return false;
+  *value = strtod(text, &end);
+  return end != text && *end == '\0' && *value >= param->min && *value <= param->max;
+}
+
+static void refuse_value(struct argp_state *state, const fs_param *param, const char *text) {
+  char known[200] = "";
+  for (int i = 0; param->choices != NULL && param->choices[i] != NULL; i++)
+    snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i > 0 ? ", " : "", param->choices[i]);
+  if (param->choices != NULL)
+    argp_error(state, "--%s %s: choose one of %s", param->name, text, known);
+  else
+    argp_error(state, "--%s %s: a number from %g to %g is needed", param->name, text, param->min, param->max);
+}
+
+/* The setting of a parameter that holds at event `at`: the last before it, or else the first of the line. */
+static const char *setting(const parser *p, const char *name, int32_t at) {
+  const char *text = NULL;
+  for (int32_t i = 0; i < p->n_events; i++) {
+    if (p->event[i].name < 0 || strcmp(p->name[p->event[i].name].param->name, name) != 0) continue;
+    if (i < at || text == NULL) text = p->event[i].text;
+  }
+  return text;
+}
+
+static void fill_params(struct argp_state *state, const parser *p, const fs_param *params, int32_t at, double *value) {
+  for (int i = 0; params != NULL && params[i].name != NULL && i < MAX_PARAM_VALUES; i++) {
+    const char *text = setting(p, params[i].name, at);
+    value[i] = params[i].initial;
+    if (text != NULL && !parse_value(&params[i], text, &value[i])) refuse_value(state, &params[i], text);
+  }
+}
+
+/* ---- argp -------------------------------------------------------------------------------------------------------- */
+
+static int32_t parse_integer(struct argp_state *state, const char *option, const char *text, int32_t min, int32_t max) {
+  char *end;
+  long value;
+  errno = 0;
+  value = strtol(text, &end, 10);
+  if (end == text || *end != '\0' || errno != 0 || value < min || value > max)
+    argp_error(state, "--%s %s: a whole number from %d to %d is needed", option, text, min, max);
+  return (int32_t)value;
+}
+
+static void add_event(struct argp_state *state, parser *p, event e) {
+  if (p->n_events == MAX_EVENTS) argp_error(state, "more than %d settings and outputs", MAX_EVENTS);
+  p->event[p->n_events++] = e;
+}
+
+static void print_version(void) {
+  bool is_reference;
+  const char *blas = fs_blas_name(&is_reference);
+  printf("fairsurf %s\nBLAS: %s%s\n", fs_version(), blas,
+         is_reference ? "\nwarning: this is the reference BLAS, several times slower: install libopenblas" : "");
+}
+
+static void print_list(void) {
+  printf("functionals:\n");
+  for (int i = 0; fs_functionals[i] != NULL; i++) printf("  %-20s %s\n", fs_functionals[i]->name, fs_functionals[i]->summary);
+  printf("patch rules:\n");
+  for (int i = 0; fs_patch_rules[i] != NULL; i++) printf("  %-20s %s\n", fs_patch_rules[i]->name, fs_patch_rules[i]->summary);
+  printf("refinements:\n");
+  for (int i = 0; fs_refiners[i] != NULL; i++) printf("  %-20s %s\n", fs_refiners[i]->name, fs_refiners[i]->summary);
+  printf("readers:\n");
+  for (int i = 0; fs_readers[i] != NULL; i++) printf("  .%-19s %s\n", fs_readers[i]->extension, fs_readers[i]->summary);
+  printf("exporters:\n");
+  for (int i = 0; fs_exporters[i] != NULL; i++) printf("  .%-19s %s\n", fs_exporters[i]->extension, fs_exporters[i]->summary);
+  printf("measures:\n");
+  for (int i = 0; fs_measures[i] != NULL; i++) printf("  %-20s %s\n", fs_measures[i]->name, fs_measures[i]->summary);
+}
+
+static command command_of(const char *text) {
+  static const struct {
+    const char *name;
+    command command;
+  } known[] = {{"info", COMMAND_INFO}, {"refine", COMMAND_REFINE}, {"fair", COMMAND_FAIR}, {"export", COMMAND_EXPORT}};
+  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+    if (strcmp(known[i].name, text) == 0) return known[i].command;
+  return COMMAND_NONE;
+}
+
+static void finish_outputs(struct argp_state *state, parser *p) {
+  arguments *a = p->arguments;
+  for (int32_t i = 0; i < p->n_events; i++) {
+    const event *e = &p->event[i];
+    output_request *o;
+    const char *dot;
+    if (e->name >= 0) continue;
+    if (a->n_outputs == MAX_OUTPUTS) argp_error(state, "more than %d outputs", MAX_OUTPUTS);
+    o = &a->output[a->n_outputs++];
+    *o = (output_request){.path = e->text, .is_surface = e->is_surface};
+    o->colour = e->colour != NULL ? e->colour : p->first_colour;
+    dot = strrchr(e->text, '.');
+    o->exporter = dot != NULL && strchr(dot, '/') == NULL ? fs_exporter_find(dot + 1) : NULL;
+    if (o->exporter == NULL) {
+      char known[200] = "";
+      for (int k = 0; fs_exporters[k] != NULL; k++)
+        snprintf(known + strlen(known), sizeof known - strlen(known), " .%s", fs_exporters[k]->extension);
+      argp_error(state, "-o %s: no exporter has this extension; there are%s", e->text, known);
+    }
+    fill_params(state, p, o->exporter->params, i, o->param);
+  }
+  fill_params(state, p, a->functional->params, p->n_events, a->functional_param);
+  for (int i = 0; fs_refiners[i] != NULL; i++)
+    if (strcmp(fs_refiners[i]->name, a->refiner) == 0)
+      fill_params(state, p, fs_refiners[i]->params, p->n_events, a->refiner_param);
+}
+
+static void finish(struct argp_state *state, parser *p) {
+  arguments *a = p->arguments;
+  if (a->command == COMMAND_NONE) argp_error(state, "a command is needed: info, refine, fair or export");
+  if (a->mesh == NULL) argp_error(state, "a mesh is needed");
+  finish_outputs(state, p);
+  if (a->command == COMMAND_EXPORT && a->n_outputs == 0) argp_error(state, "export needs an output: -o FILE");
+  if (a->command == COMMAND_REFINE && a->n_outputs == 0) argp_error(state, "refine needs an output: -o FILE");
+  if (a->no_refine && a->refine > 0) argp_error(state, "--refine and --no-refine exclude each other");
+}
+
+/* Parameters of one letter are short options too. */
+static int key_of(const parser *p, int32_t i) {
+  const char *name = p->name[i].param->name;
+  return name[1] == '\0' ? name[0] : KEY_PARAM + i;
+}
+
+static error_t parse_option(int key, char *text, struct argp_state *state) {
+  parser *p = state->input;
+  arguments *a = p->arguments;
+  for (int32_t i = 0; i < p->n_names; i++)
+    if (key == key_of(p, i)) {
+      add_event(state, p, (event){.name = i, .text = text});
+      return 0;
+    }
+  switch (key) {
+  case 'o': add_event(state, p, (event){.name = -1, .text = text, .is_surface = p->is_surface, .colour = p->colour}); break;
+  case 'q': a->quiet = true; break;
+  case 'V': print_version(); exit(0);
+  case KEY_LIST: print_list(); exit(0);
+  case KEY_FIXED: a->fixed = text; break;
+  case KEY_REPORT: a->report = text; break;
+  case KEY_REFINE: a->refine = parse_integer(state, "refine", text, 0, FS_MAX_REFINEMENTS - 2); break;
+  case KEY_NO_REFINE: a->no_refine = true; break;
+  case KEY_NODES: a->nodes = parse_integer(state, "nodes", text, 1, 32); break;
+  case KEY_ITERATIONS: a->max_iterations = parse_integer(state, "max-iterations", text, 0, INT_MAX); break;
+  case KEY_THREADS: a->threads = parse_integer(state, "threads", text, 1, 64); break;
+  case KEY_FUNCTIONAL:
+    a->functional = fs_functional_find(text);
+    if (a->functional == NULL) argp_error(state, "--functional %s is unknown; fairsurf --list shows the known ones", text);
+    break;
+  case KEY_START:
+    if (strcmp(text, "triharmonic") != 0 && strcmp(text, "mesh") != 0)
+      argp_error(state, "--start %s: choose one of mesh, triharmonic", text);
+    a->start_triharmonic = strcmp(text, "triharmonic") == 0;
+    break;
+  case KEY_NAME: a->name = text; break;
+  case KEY_SURFACE: p->is_surface = true; break;
+  case KEY_NET: p->is_surface = false; break;
+  case KEY_JSON: a->json = true; break;
+  case KEY_SCHEME: a->refiner = text; break;
+  case KEY_COLOUR:
+    p->colour = fs_measure_find(text);
+    if (p->colour == NULL) argp_error(state, "--colour %s is unknown; fairsurf --list shows the known measures", text);
+    if (p->first_colour == NULL) p->first_colour = p->colour;
+    break;
+  case ARGP_KEY_ARG:
+    if (state->arg_num == 0) {
+      a->command = command_of(text);
+      if (a->command == COMMAND_NONE) argp_error(state, "unknown command %s: info, refine, fair and export are known", text);
+    } else if (state->arg_num == 1) {
+      a->mesh = text;
+    } else {
+      argp_error(state, "%s: one mesh at a time", text);
+    }
+    break;
+  case ARGP_KEY_END: finish(state, p); break;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+  return 0;
+}
+
+static const struct argp_option fixed_options[] = {
+    {NULL, 0, NULL, 0, "Output:", 1},
+    {"output", 'o', "FILE", 0, "write FILE; its extension chooses the exporter; may be given often", 0},
+    {"surface", KEY_SURFACE, NULL, 0, "the -o that follow hold the tessellated surface (.stl and .pov always do)", 0},
+    {"net", KEY_NET, NULL, 0, "the -o that follow hold the control net, as at the beginning", 0},
+    {"name", KEY_NAME, "NAME", 0, "name of the object in the files (default: stem of the file)", 0},
+    {"colour", KEY_COLOUR, "MEASURE", 0, "colour by a measure: mean, gaussian, … (see --list)", 0},
+    {"report", KEY_REPORT, "FILE", 0, "write the report of fairing as JSON", 0},
+    {"json", KEY_JSON, NULL, 0, "info: print JSON", 0},
+    {"quiet", 'q', NULL, 0, "no notes, no progress, no report", 0},
+    {NULL, 0, NULL, 0, "The mesh and its space:", 2},
+    {"refine", KEY_REFINE, "N", 0, "refine N times at least; without it only where the space needs it", 0},
+    {"no-refine", KEY_NO_REFINE, NULL, 0, "refuse a mesh that would need refinement", 0},
+    {"scheme", KEY_SCHEME, "NAME", 0, "refine: averaging or catmull-clark", 0},
+    {NULL, 0, NULL, 0, "Fairing:", 3},
+    {"functional", KEY_FUNCTIONAL, "NAME", 0, "what to minimise (default: the first of --list)", 0},
+    {"fixed", KEY_FIXED, "FILE", 0, "vertices that stay besides the rim: numbers from 0, one per line", 0},
+    {"start", KEY_START, "WHAT", 0, "mesh: the given positions; triharmonic: the minimum of a linear problem", 0},
+    {"nodes", KEY_NODES, "N", 0, "Gauss nodes per direction, everywhere (default: 8 on squares, 12 in caps)", 0},
+    {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100); 0 only measures", 0},
+    {"threads", KEY_THREADS, "N", 0, "threads (1)", 0},
+    {NULL, 0, NULL, 0, "About:", 9},
+    {"list", KEY_LIST, NULL, 0, "list functionals, rules, refinements, formats, measures", 0},
+    {"version", 'V', NULL, 0, "print the version and the BLAS in use", 0},
+};
+enum { N_FIXED_OPTIONS = sizeof fixed_options / sizeof fixed_options[0] };
+
+void parse_arguments(int argc, char **argv, arguments *a) {
+  static const char doc[] =
+      "Turns a polygon control mesh into a fair, curvature continuous surface.\v"
+      "Commands:\n"
+      "  info MESH     counts, valences, and what a space over the mesh would be made of\n"
+      "  refine MESH   one refinement step of the mesh\n"
+      "  fair MESH     move the free vertices to the fairest surface, write it\n"
+      "  export MESH   write the surface as it is\n\n"
+      "Options of a file format hold for the -o that follow them; where none came before an -o, the first one on the line "
+      "holds. Exit codes: 0 done, 1 the input is refused, 2 usage, 3 numeric failure, 4 files, 130 cancelled (the best "
+      "surface so far is written).";
+  parser p = {.arguments = a};
+  struct argp_option options[N_FIXED_OPTIONS + MAX_NAMES + 2] = {{0}};
+  int n = 0;
+  *a = (arguments){.functional = fs_functionals[0], .refiner = "averaging", .max_iterations = 100, .threads = 1};
+  collect_params(&p);
+  for (int i = 0; i < N_FIXED_OPTIONS; i++) options[n++] = fixed_options[i];
+  options[n++] = (struct argp_option){.doc = "Parameters (of functionals, refinements, file formats):", .group = 5};
+  for (int32_t i = 0; i < p.n_names; i++) {
+    options[n++] = (struct argp_option){
+        .name = p.name[i].param->name, .key = key_of(&p, i), .arg = "VALUE", .doc = p.name[i].doc};
+  }
+  const struct argp argp = {.options = options, .parser = parse_option, .args_doc = "COMMAND MESH", .doc = doc};
+  argp_err_exit_status = EXIT_USAGE;
+  argp_parse(&argp, argc, argv, 0, NULL, &p);
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/* What the files of the command line share. They use the public headers only. */
+#ifndef FS_CLI_CLI_H
+#define FS_CLI_CLI_H
+
+#include <fairsurf/fairsurf.h>
+#include <stdio.h>
+
+enum { EXIT_REFUSED = 1, EXIT_USAGE = 2, EXIT_NUMERIC = 3, EXIT_FILE = 4, EXIT_CANCELLED = 130 };
+enum { MAX_OUTPUTS = 64, MAX_PARAM_VALUES = 24 };
+
+typedef enum command { COMMAND_NONE, COMMAND_INFO, COMMAND_REFINE, COMMAND_FAIR, COMMAND_EXPORT } command;
+
+/* One -o, with the settings that hold for it. */
+typedef struct output_request {
+  const char *path;
+  bool is_surface;                 /* --surface came before it */
+  const fs_exporter *exporter;
+  double param[MAX_PARAM_VALUES];  /* of the exporter */
+  const fs_measure *colour;        /* or NULL */
+} output_request;
+
+typedef struct arguments {
+  command command;
+  const char *mesh;
+  int32_t n_outputs;
+  output_request output[MAX_OUTPUTS];
+  const char *name;                /* of the object in the files, or NULL: the stem */
+  const char *fixed, *report;      /* files, or NULL */
+  bool json, no_refine, quiet, start_triharmonic;
+  int32_t refine, nodes, max_iterations, threads;
+  const char *refiner;             /* of the command refine */
+  double refiner_param[MAX_PARAM_VALUES];
+  const fs_functional *functional;
+  double functional_param[MAX_PARAM_VALUES];
+} arguments;
+
+/* Fills the arguments or leaves the program: 0 after --help and --version, 2 with a sentence where they are wrong. */
+void parse_arguments(int argc, char **argv, arguments *arguments);
+
+/* Exit code of a status. */
+int exit_code(fs_status status);
+
+/* What the command info prints. */
+fs_status print_info(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh);
+
+/* marked[n_vertices] from a file of marks: one vertex number per line, counted from 0, alone or followed by "fixed" or
+   "free"; # starts a comment. */
+fs_status read_marks(fs_context *ctx, const char *path, int32_t n_vertices, bool *marked);
+
+typedef struct timings {
+  double read, space, fair, export, total;
+} timings;
+
+/* The report of fairing as JSON, 17 digits; written beside and renamed. */
+fs_status write_report(fs_context *ctx, const char *path, const arguments *arguments, const fs_fair_report *report,
+                       const timings *seconds);
+void print_report(FILE *file, const fs_fair_report *report, const timings *seconds);
+
+double now(void); /* seconds of a steady clock */
+
+#endif

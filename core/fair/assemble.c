@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT */
+/* Single role: from densities at points to integrals, gradients and Hessians over all elements.
+
+     F(c) = sum over elements e, points q, terms t of  w_t w_q f_t(N_q c_e)
+   N_q: the nine basis derivatives at the point. With the gradient f' and Hessian f'' of the density by the derivatives:
+     dF/dc_e   = sum w_t w_q N_q^T f'           d2F/dc_e2 = sum w_t w_q N_q^T f'' N_q.
+   Terms that are fed the same derivatives are added at the point, before the chain rule. Elements are computed in parallel,
+   a batch at a time, and added in their order, so that results do not depend on the number of threads. */
+#include "fair/problem.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { N = FS_N_DERIVATIVES, B = FS_BLOCK, N_PAIRS = N * (N + 1) / 2, MAX_DOFS = 6 * FS_MAX_CAP_VALENCE + 1 };
+
+/* What one worker needs for one block of points. */
+typedef struct scratch {
+  double x[N * 3 * B], f[B], df[N * 3 * B], ddf[N_PAIRS * 9 * B]; /* of one density */
+  double sum_df[N * 3 * B], sum_ddf[N_PAIRS * 9 * B];             /* of all terms on one table */
+  double c[MAX_DOFS * 3];
+} scratch;
+
+size_t fs_assemble_scratch_size(void) { return sizeof(scratch); }
+
+static int32_t pair_number(int32_t i, int32_t j, int32_t n) { return i * n - i * (i - 1) / 2 + j - i; }
+
+/* Adds scale[B] times the derivatives of one density, of whatever order, to the sums. */
+static void add_density(const fs_density *density, fs_order order, const double *scale, scratch *s) {
+  static const int32_t n_of_order[4] = {0, 2, 5, 9};
+  int32_t n = n_of_order[density->order];
+  if (order >= FS_GRADIENT)
+    for (int32_t i = 0; i < 3 * n; i++)
+      for (int l = 0; l < B; l++) s->sum_df[i * B + l] += scale[l] * s->df[i * B + l];
+  if (order < FS_HESSIAN) return;
+  for (int32_t i = 0; i < n; i++)
+    for (int32_t j = i; j < n; j++) {
+      const double *from = s->ddf + (size_t)pair_number(i, j, n) * 9 * B;
+      double *to = s->sum_ddf + (size_t)pair_number(i, j, N) * 9 * B;
+      for (int e = 0; e < 9; e++)
+        for (int l = 0; l < B; l++) to[e * B + l] += scale[l] * from[e * B + l];
+    }
+}
+
+/* One element by one table: all terms with on_chart as asked. */
+static void add_table(const fs_problem *p, const fs_basis_table *table, const fs_basis_jets *jets, bool has_chart,
+                      bool on_chart, fs_order order, scratch *s, fs_element_result *result) {
+  for (int32_t block = 0; block < table->n_blocks; block++) {
+    const double *by_dof = jets->by_dof + (size_t)block * N * table->n_dofs * B, *weight = jets->weight + block * B;
+    const double *by_point = jets->by_point + (size_t)block * B * N * table->n_padded;
+    bool is_first = true;
+    for (int32_t t = 0; t < p->n_terms; t++) {
+      const fs_density *density = p->term[t];
+      double scale[B];
+      if ((has_chart && !density->is_geometric) != on_chart) continue;
+      if (is_first) {
+        p->kernels->jets(table->n_dofs, by_dof, s->c, s->x);
+        if (order >= FS_GRADIENT) memset(s->sum_df, 0, sizeof s->sum_df);
+        if (order >= FS_HESSIAN) memset(s->sum_ddf, 0, sizeof s->sum_ddf);
+        is_first = false;
+      }
+      /* a term without weight is only measured */
+      fs_order wanted = p->weight[t] != 0 ? order : FS_VALUE;
+      density->evaluate(s->x, s->f, wanted >= FS_GRADIENT ? s->df : NULL, wanted >= FS_HESSIAN ? s->ddf : NULL);
+      for (int l = 0; l < B; l++) {
+        if (weight[l] != 0) result->integral[t] += weight[l] * s->f[l];
+        scale[l] = p->weight[t] * weight[l];
+      }
+      if (wanted > FS_VALUE) add_density(density, order, scale, s);
+    }
+    if (is_first) return; /* no term is on this table */
+    if (order >= FS_GRADIENT) p->kernels->gradient(table->n_dofs, by_dof, s->sum_df, result->gradient);
+    if (order >= FS_HESSIAN) p->kernels->hessian(table->n_padded, by_point, s->sum_ddf, result->hessian);
+  }
+}
+
+typedef struct batch {
+  fs_problem *problem;
+  fs_order order;
+  int32_t first;
+} batch;
+
+static bool has_free_dof(const fs_problem *p, const fs_element *e, int32_t n_dofs) {
+  for (int32_t d = 0; d < n_dofs; d++)
+    if (p->unknown[p->space->dof[e->dof_start + d]] != FS_NONE) return true;
+  return false;
+}
+
+static fs_status run_batch(void *user, int32_t begin, int32_t end, int32_t worker) {
+  batch *b = user;
+  fs_problem *p = b->problem;
+  scratch *s = p->scratch[worker];
+  for (int32_t i = begin; i < end; i++) {
+    const fs_element *e = &p->space->element[b->first + i];
+    const fs_basis_table *table = p->table[e->extraction];
+    bool has_chart = table->chart.weight != NULL;
+    fs_element_result *result = &p->result[i];
+    fs_order order = b->order > FS_VALUE && has_free_dof(p, e, table->n_dofs) ? b->order : FS_VALUE;
+    for (int32_t d = 0; d < table->n_dofs; d++) {
+      fs_vec3 c = p->c[p->space->dof[e->dof_start + d]];
+      s->c[3 * d] = c.x;
+      s->c[3 * d + 1] = c.y;
+      s->c[3 * d + 2] = c.z;
+    }
+    memset(result->integral, 0, sizeof result->integral);
+    if (order >= FS_GRADIENT) memset(result->gradient, 0, 3 * (size_t)table->n_dofs * sizeof(double));
+    if (order >= FS_HESSIAN)
+      memset(result->hessian, 0, 6 * (size_t)table->n_padded * (size_t)table->n_padded * sizeof(double));
+    add_table(p, table, &table->parameter, has_chart, false, order, s, result);
+    if (has_chart) add_table(p, table, &table->chart, has_chart, true, order, s, result);
+  }
+  return FS_OK;
+}
+
+/* Adds the 3x3 blocks of an element's Hessian for all ordered pairs (a, b) whose unknowns i >= j. Where a dof occurs twice in
+   an element (small closed meshes) both pairs go to the diagonal block. */
+static void scatter_hessian(const fs_problem *p, const fs_element *e, const fs_basis_table *table, const double *h,
+                            fs_sparse *hessian) {
+  static const int pair[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  size_t m = (size_t)table->n_padded;
+  for (int32_t a = 0; a < table->n_dofs; a++) {
+    int32_t i = p->unknown[p->space->dof[e->dof_start + a]];
+    if (i == FS_NONE) continue;
+    for (int32_t b = 0; b < table->n_dofs; b++) {
+      int32_t j = p->unknown[p->space->dof[e->dof_start + b]];
+      double block[9];
+      if (j == FS_NONE || i < j) continue;
+      for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) { /* component r of dof a, component c of dof b */
+          bool is_swapped = r > c || (r == c && a > b);
+          size_t row = (size_t)(is_swapped ? b : a), column = (size_t)(is_swapped ? a : b);
+          block[3 * r + c] = h[((size_t)pair[r][c] * m + row) * m + column];
+        }
+      fs_sparse_add(hessian, i, j, block);
+    }
+  }
+}
+
+fs_status fs_problem_evaluate(fs_problem *p, fs_order order, double *integral, double *integral_caps, double *g,
+                              fs_sparse *hessian) {
+  fs_status status = FS_OK;
+  const fs_space *space = p->space;
+  double all[FS_MAX_TERMS] = {0}, caps[FS_MAX_TERMS] = {0};
+  if (g != NULL) memset(g, 0, 3 * (size_t)p->n_free * sizeof *g);
+  if (order >= FS_HESSIAN) fs_sparse_clear(hessian);
+  for (int32_t first = 0; first < space->n_elements; first += p->n_batch) {
+    batch b = {p, order, first};
+    int32_t n = space->n_elements - first < p->n_batch ? space->n_elements - first : p->n_batch;
+    FS_TRY(fs_parallel_for(p->ctx, n, run_batch, &b));
+    for (int32_t i = 0; i < n; i++) {
+      const fs_element *e = &space->element[first + i];
+      const fs_basis_table *table = p->table[e->extraction];
+      const fs_element_result *result = &p->result[i];
+      for (int32_t t = 0; t < p->n_terms; t++) {
+        all[t] += result->integral[t];
+        if (space->extraction[e->extraction].valence != 4) caps[t] += result->integral[t];
+      }
+      if (order == FS_VALUE || !has_free_dof(p, e, table->n_dofs)) continue;
+      for (int32_t d = 0; d < table->n_dofs; d++) {
+        int32_t unknown = p->unknown[space->dof[e->dof_start + d]];
+        if (unknown == FS_NONE) continue;
+        for (int k = 0; k < 3; k++) g[3 * (size_t)unknown + k] += result->gradient[3 * d + k];
+      }
+      if (order >= FS_HESSIAN) scatter_hessian(p, e, table, result->hessian, hessian);
+    }
+  }
+  if (integral != NULL) memcpy(integral, all, sizeof *all * (size_t)p->n_terms);
+  if (integral_caps != NULL) memcpy(integral_caps, caps, sizeof *caps * (size_t)p->n_terms);
+done:
+  return status;
+}
+
+fs_status fs_problem_find_singular(fs_problem *p, int32_t *face) {
+  fs_status status = FS_OK;
+  *face = FS_NONE;
+  for (int32_t first = 0; first < p->space->n_elements && *face == FS_NONE; first += p->n_batch) {
+    batch b = {p, FS_VALUE, first};
+    int32_t n = p->space->n_elements - first < p->n_batch ? p->space->n_elements - first : p->n_batch;
+    FS_TRY(fs_parallel_for(p->ctx, n, run_batch, &b));
+    for (int32_t i = n - 1; i >= 0; i--)
+      for (int32_t t = 0; t < p->n_terms; t++)
+        if (!isfinite(p->result[i].integral[t])) *face = p->space->element[first + i].face;
+  }
+done:
+  return status;
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* Single role: which BLAS the solver runs on. The reference BLAS, which libblas gives where nothing better is installed,
+   makes factorisations several times slower. */
+#include <fairsurf/fair.h>
+
+#include <dlfcn.h>
+
+const char *fs_blas_name(bool *is_reference) {
+  Dl_info info;
+  const char *name = "unknown BLAS";
+  bool is_known_fast = dlsym(RTLD_DEFAULT, "openblas_get_config") != NULL || dlsym(RTLD_DEFAULT, "MKL_Get_Version_String") ||
+                       dlsym(RTLD_DEFAULT, "bli_info_get_version_str") || dlsym(RTLD_DEFAULT, "ATL_buildinfo");
+  void *product = dlsym(RTLD_DEFAULT, "dgemm_");
+  if (product != NULL && dladdr(product, &info) != 0 && info.dli_fname != NULL) name = info.dli_fname;
+  if (is_reference != NULL) *is_reference = !is_known_fast;
+  return name;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/* Minimisation of a smooth function of many numbers. Knows no geometry. */
+#ifndef FS_OPTIMISE_MINIMISE_H
+#define FS_OPTIMISE_MINIMISE_H
+
+#include "solve/solver.h"
+
+/* What a method sees of a problem: 3 n unknowns in groups of three, whose Hessian has the pattern of a block matrix.
+   A value that is not finite means "not in the domain" and is never accepted; at the start it is an error. */
+typedef struct fs_objective {
+  int32_t n;                /* groups of three */
+  const fs_sparse *pattern; /* of the Hessian */
+  void *self;
+  fs_status (*value)(void *self, const double *x, double *f);
+  fs_status (*gradient)(void *self, const double *x, double *f, double *g);
+  fs_status (*hessian)(void *self, const double *x, double *f, double *g, fs_sparse *hessian);
+} fs_objective;
+
+typedef enum fs_minimise_stop {
+  FS_MINIMISE_GRADIENT,
+  FS_MINIMISE_STEP,
+  FS_MINIMISE_DECREASE,
+  FS_MINIMISE_ITERATIONS,
+  FS_MINIMISE_CANCELLED
+} fs_minimise_stop;
+
+typedef struct fs_minimise_step {
+  int32_t number, n_factorisations;
+  double value, gradient, damping, length, gain;
+} fs_minimise_step;
+
+typedef struct fs_minimise_options {
+  int32_t max_iterations;    /* accepted steps */
+  double gradient_tolerance; /* |g| relative to the start */
+  double decrease_tolerance; /* predicted decrease relative to |f| */
+  double damping;            /* of the first step, relative to the diagonal of the Hessian */
+  bool (*monitor)(void *user, const fs_minimise_step *step); /* after every accepted step; false cancels; may be NULL */
+  void *user;
+} fs_minimise_options;
+
+typedef struct fs_minimise_report {
+  fs_minimise_stop stop;
+  int32_t n_steps, n_hessians, n_factorisations;
+  double value, gradient;
+} fs_minimise_report;
+
+/* x[3 n]: in the start, out the minimum, or the best point met. */
+fs_status fs_minimise(fs_context *ctx, const fs_objective *objective, const fs_minimise_options *options, double *x,
+                      fs_minimise_report *report);
+
+#endif

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/* Which corners of patches are one point: union-find over the corners 4 patch + corner, joined across shared sides. */
+#include "surface/surface.h"
+
+static int32_t find(int32_t *parent, int32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/* The lower number becomes the root, so that a root comes before its followers. */
+static void unite(int32_t *parent, int32_t i, int32_t j) {
+  i = find(parent, i), j = find(parent, j);
+  if (i < j)
+    parent[j] = i;
+  else
+    parent[i] = j;
+}
+
+fs_status fs_surface_corners(fs_context *ctx, const fs_surface *surface, int32_t *corner, int32_t *n_corners) {
+  fs_status status = FS_OK;
+  int32_t *parent = NULL, n = 0;
+  FS_ALLOC(ctx, parent, 4 * (size_t)surface->n_patches);
+  for (int32_t i = 0; i < 4 * surface->n_patches; i++) parent[i] = i;
+  for (int32_t p = 0; p < surface->n_patches; p++)
+    for (int32_t s = 0; s < 4; s++) {
+      int32_t other = fs_side_across(surface, p, s);
+      if (other == FS_NONE) continue;
+      /* our corner s is where the side that meets ours ends, our corner s + 1 where it starts */
+      int32_t q = other / 4, r = other % 4;
+      unite(parent, 4 * p + s, 4 * q + (r + 1) % 4);
+      unite(parent, 4 * p + (s + 1) % 4, 4 * q + r);
+    }
+  for (int32_t i = 0; i < 4 * surface->n_patches; i++) {
+    int32_t root = find(parent, i);
+    corner[i] = root == i ? n++ : corner[root];
+  }
+  *n_corners = n;
+done:
+  fs_release(ctx, parent);
+  return status;
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/* Single role: Stanford PLY, binary little-endian or ascii. A control net keeps its polygons and its doubles; a surface
+   becomes triangles with doubles for positions and floats for the exact normals at their corners. */
+#include "writer.h"
+
+enum { STEPS, FORMAT };
+enum { BINARY, ASCII };
+
+typedef struct ply {
+  fs_writer writer;
+  bool is_ascii;
+} ply;
+
+/* Separates numbers of a line; binary files need none. */
+static void separate(ply *p, const char *text) {
+  if (p->is_ascii) fs_writer_text(&p->writer, text);
+}
+
+static void write_double(ply *p, double number) {
+  if (p->is_ascii)
+    fs_writer_number(&p->writer, number);
+  else
+    fs_writer_float64(&p->writer, number);
+}
+
+static void write_float(ply *p, double number) {
+  if (p->is_ascii)
+    fs_writer_number(&p->writer, number);
+  else
+    fs_writer_float32(&p->writer, number);
+}
+
+static void write_int(ply *p, int32_t number) {
+  if (p->is_ascii)
+    fs_writer_printf(&p->writer, "%d", number);
+  else
+    fs_writer_uint32(&p->writer, (uint32_t)number);
+}
+
+static void write_size(ply *p, int32_t size, bool is_byte) {
+  if (is_byte && !p->is_ascii)
+    fs_writer_uint8(&p->writer, (uint8_t)size);
+  else
+    write_int(p, size);
+}
+
+static void write_position(ply *p, fs_vec3 position) {
+  write_double(p, position.x);
+  separate(p, " ");
+  write_double(p, position.y);
+  separate(p, " ");
+  write_double(p, position.z);
+}
+
+/* normals: whether the vertices have them. Sizes of faces are bytes where they fit, as most readers expect. */
+static void write_header(ply *p, const fs_model *model, int32_t n_vertices, bool normals, int32_t n_faces,
+                         bool is_byte) {
+  fs_writer *writer = &p->writer;
+  fs_writer_printf(writer, "ply\nformat %s 1.0\ncomment ", p->is_ascii ? "ascii" : "binary_little_endian");
+  fs_writer_line_text(writer, model->made_with != NULL ? model->made_with : "fairsurf");
+  fs_writer_printf(writer, "\nelement vertex %d\n", n_vertices);
+  fs_writer_text(writer, "property double x\nproperty double y\nproperty double z\n");
+  if (normals) fs_writer_text(writer, "property float nx\nproperty float ny\nproperty float nz\n");
+  fs_writer_printf(writer, "element face %d\nproperty list %s int vertex_indices\nend_header\n", n_faces,
+                   is_byte ? "uchar" : "int");
+}
+
+static void write_net(ply *p, const fs_model *model) {
+  const fs_mesh *mesh = model->control;
+  bool is_byte = true;
+  for (int32_t f = 0; f < mesh->n_faces; f++) is_byte = is_byte && fs_mesh_face_size(mesh, f) <= 255;
+  write_header(p, model, mesh->n_vertices, false, mesh->n_faces, is_byte);
+  for (int32_t v = 0; v < mesh->n_vertices; v++) {
+    write_position(p, mesh->position[v]);
+    separate(p, "\n");
+  }
+  for (int32_t f = 0; f < mesh->n_faces; f++) {
+    write_size(p, fs_mesh_face_size(mesh, f), is_byte);
+    for (int32_t h = mesh->face_start[f]; h < mesh->face_start[f + 1]; h++) {
+      separate(p, " ");
+      write_int(p, mesh->origin[h]);
+    }
+    separate(p, "\n");
+  }
+}
+
+static void write_triangles(ply *p, const fs_model *model, const fs_triangles *t) {
+  write_header(p, model, t->n_vertices, true, t->n_triangles, true);
+  for (int32_t v = 0; v < t->n_vertices; v++) {
+    write_position(p, t->position[v]);
+    separate(p, " ");
+    write_float(p, t->normal[v].x);
+    separate(p, " ");
+    write_float(p, t->normal[v].y);
+    separate(p, " ");
+    write_float(p, t->normal[v].z);
+    separate(p, "\n");
+  }
+  for (int32_t i = 0; i < t->n_triangles; i++) {
+    write_size(p, 3, true);
+    for (int32_t j = 0; j < 3; j++) {
+      separate(p, " ");
+      write_int(p, t->corner[3 * i + j]);
+    }
+    separate(p, "\n");
+  }
+}
+
+static fs_status write(fs_context *ctx, const fs_model *model, const double *param, const fs_output *output) {
+  ply p = {.is_ascii = param[FORMAT] == ASCII};
+  fs_triangles *triangles = NULL;
+  fs_status status = FS_OK;
+  if (model->surface != NULL) status = fs_tessellate(ctx, model->surface, (int32_t)param[STEPS], &triangles);
+  if (status != FS_OK) return status;
+  fs_writer_start(&p.writer, ctx, output, "ply");
+  if (triangles != NULL)
+    write_triangles(&p, model, triangles);
+  else
+    write_net(&p, model);
+  status = fs_writer_finish(&p.writer);
+  fs_triangles_free(ctx, triangles);
+  return status;
+}
+
+const fs_exporter fs_exporter_ply = {
+    .name = "ply",
+    .extension = "ply",
+    .summary = "Stanford PLY: the control net with its polygons, or the surface as triangles with normals",
+    .params = (const fs_param[]){FS_PARAM_STEPS,
+                                 {.name = "format",
+                                  .summary = "binary: little-endian",
+                                  .initial = BINARY,
+                                  .min = BINARY,
+                                  .max = ASCII,
+                                  .choices = (const char *const[]){"binary", "ascii", NULL}},
+                                 {.name = NULL}},
+    .what = FS_EXPORT_BOTH,
+    .write = write,
+};

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT */
+/* NAME.inc as mesh2: triangles with exact normals and, for a measure, its value as texture coordinate.
+
+   Faces are written clockwise from outside: where the three normals of a triangle are equal the renderer takes the
+   outside from the order of its corners, opposite to the usual sense; where they differ, from the normals. */
+#include "povray.h"
+#include "base/base.h"
+#include "math/vec3.h"
+
+/* The value number k (from 0) in ascending order of value[n]; reorders value. Hoare's selection [Hoare 1961]. */
+static double select_value(double *value, size_t n, size_t k) {
+  size_t low = 0, high = n - 1;
+  while (low < high) {
+    double pivot = value[low + (high - low) / 2];
+    size_t i = low, j = high;
+    for (;;) {
+      while (value[i] < pivot) i++;
+      while (value[j] > pivot) j--;
+      if (i >= j) break;
+      double swapped = value[i];
+      value[i++] = value[j], value[j--] = swapped;
+    }
+    /* now value[low .. j] <= pivot <= value[j + 1 .. high] */
+    if (k <= j)
+      high = j;
+    else
+      low = j + 1;
+  }
+  return value[k];
+}
+
+/* Values between the 2nd and the 98th of 100 get the colours between: a few wild points must not take them all. */
+static fs_status find_range(fs_context *ctx, const double *value, size_t n, double *low, double *high) {
+  fs_status status = FS_OK;
+  double *sorted = NULL;
+  size_t n_finite = 0;
+  *low = 0, *high = 1;
+  FS_ALLOC(ctx, sorted, n);
+  for (size_t k = 0; k < n; k++)
+    if (isfinite(value[k])) sorted[n_finite++] = value[k];
+  if (n_finite == 0) goto done;
+  *low = select_value(sorted, n_finite, (n_finite - 1) / 50);
+  *high = select_value(sorted, n_finite, n_finite - 1 - (n_finite - 1) / 50);
+  /* a constant measure, but for rounding, is shown in the colour of the middle */
+  double least = 1e-9 * fmax(fabs(*low), fabs(*high)) + 1e-300;
+  if (*high - *low < least) {
+    double middle = 0.5 * (*low + *high), half = 1e-6 * fabs(middle) + 1e-300;
+    *low = middle - half, *high = middle + half;
+  }
+done:
+  fs_release(ctx, sorted);
+  return status;
+}
+
+/* value[n_vertices] of the measure with the initial values of its parameters */
+static fs_status evaluate(fs_context *ctx, const fs_surface *surface, const fs_measure *colour, const fs_triangles *t,
+                          double *value) {
+  fs_status status = FS_OK;
+  fs_vec3 x[FS_JET_SIZE];
+  double *param = NULL;
+  size_t n_params = 0;
+  while (colour->params != NULL && colour->params[n_params].name != NULL) n_params++;
+  FS_ALLOC(ctx, param, n_params);
+  for (size_t k = 0; k < n_params; k++) param[k] = colour->params[k].initial;
+  for (int32_t k = 0; k < t->n_vertices; k++) {
+    const double *uv = t->vertex_uv + 2 * (size_t)k;
+    fs_surface_evaluate(surface, t->vertex_patch[k], uv[0], uv[1], x);
+    value[k] = colour->value(param, x);
+  }
+done:
+  fs_release(ctx, param);
+  return status;
+}
+
+static void write_vectors(fs_writer *w, const char *keyword, const fs_vec3 *vector, int32_t n, int digits) {
+  fs_writer_printf(w, "%s { %d,\n", keyword, (int)n);
+  for (int32_t k = 0; k < n; k++) {
+    fs_povray_vector(w, vector[k], digits);
+    fs_writer_printf(w, k + 1 < n ? ",\n" : "\n}\n");
+  }
+}
+
+/* The gradient of the scene wraps at 0 and 1, hence strictly between. */
+static void write_colours(fs_writer *w, const double *value, int32_t n, double low, double high) {
+  fs_writer_printf(w, "uv_vectors { %d,\n", (int)n);
+  for (int32_t k = 0; k < n; k++) {
+    double u = (value[k] - low) / (high - low);
+    fs_writer_printf(w, "<");
+    fs_povray_number(w, isnan(u) ? 0.5 : fmin(fmax(u, 0.001), 0.999), 5);
+    fs_writer_printf(w, k + 1 < n ? ",0.5>,\n" : ",0.5>\n}\n");
+  }
+}
+
+static void write_faces(fs_writer *w, const fs_triangles *t) {
+  fs_writer_printf(w, "face_indices { %d,\n", (int)t->n_triangles);
+  for (int32_t k = 0; k < t->n_triangles; k++) {
+    const int32_t *corner = t->corner + 3 * (size_t)k;
+    fs_writer_printf(w, "<%d,%d,%d>%s", (int)corner[0], (int)corner[2], (int)corner[1],
+                     k + 1 < t->n_triangles ? ",\n" : "\n}\n");
+  }
+}
+
+static bool is_closed(const fs_surface *surface) {
+  for (int32_t p = 0; p < surface->n_patches; p++)
+    for (int s = 0; s < 4; s++)
+      if (surface->patch[p].neighbour[s] == FS_NONE) return false;
+  return true;
+}
+
+static void write_range(fs_writer *w, const char *name, const fs_measure *colour, double low, double high) {
+  fs_writer_printf(w, "// the first coordinate of uv_vectors is %s from %s_Low (0) to %s_High (1)\n", colour->name,
+                   name, name);
+  fs_writer_printf(w, "#declare %s_Low = ", name);
+  fs_povray_number(w, low, 7);
+  fs_writer_printf(w, ";\n#declare %s_High = ", name);
+  fs_povray_number(w, high, 7);
+  fs_writer_printf(w, ";\n");
+}
+
+fs_status fs_povray_write_mesh(fs_context *ctx, const fs_povray_model *model, const fs_measure *colour,
+                               const fs_output *output) {
+  fs_status status = FS_OK;
+  const fs_surface *surface = model->model->surface;
+  fs_triangles *t = NULL;
+  double *value = NULL, low = 0, high = 1;
+  fs_writer writer, *w = &writer;
+  FS_TRY(fs_tessellate(ctx, surface, (int32_t)1 << model->steps, &t));
+  if (colour != NULL) {
+    FS_ALLOC(ctx, value, t->n_vertices);
+    FS_TRY(evaluate(ctx, surface, colour, t, value));
+    FS_TRY(find_range(ctx, value, (size_t)t->n_vertices, &low, &high));
+  }
+  fs_writer_start(w, ctx, output, "inc");
+  fs_povray_write_head(w, model);
+  fs_writer_printf(w, "// %d patches as %d triangles, %d x %d cells per patch, with the normals of the patches\n",
+                   (int)surface->n_patches, (int)t->n_triangles, 1 << model->steps, 1 << model->steps);
+  if (colour != NULL) write_range(w, model->name, colour, low, high);
+  fs_writer_printf(w, "#declare %s = mesh2 {\n", model->name);
+  write_vectors(w, "vertex_vectors", t->position, t->n_vertices, 10);
+  write_vectors(w, "normal_vectors", t->normal, t->n_vertices, 7);
+  if (colour != NULL) write_colours(w, value, t->n_vertices, low, high);
+  write_faces(w, t);
+  /* no direction of an edge, so that the ray that decides what is inside meets none */
+  if (is_closed(surface)) fs_writer_printf(w, "inside_vector <0.1357, 0.2468, 0.9595>\n");
+  fs_writer_printf(w, "}\n#end\n");
+  FS_TRY(fs_writer_finish(w));
+done:
+  fs_release(ctx, value);
+  fs_triangles_free(ctx, t);
+  return status;
+}

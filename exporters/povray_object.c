@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+/* NAME.inc as native patches: a union of bicubic_patch, rows of points along u, so that outside is p_u x p_v. */
+#include "povray.h"
+
+void fs_povray_write_head(fs_writer *w, const fs_povray_model *m) {
+  const char *name = m->name;
+  fs_writer_printf(w, "// %s: a smooth surface made by fairsurf %s\n", name, fs_version());
+  if (m->model->made_with != NULL) {
+    fs_writer_text(w, "// ");
+    fs_writer_line_text(w, m->model->made_with);
+    fs_writer_text(w, "\n");
+  }
+  fs_writer_printf(w, "// Object only, z up, right-handed: object { %s texture { ... } }\n", name);
+  fs_writer_printf(w, "#ifndef (%s_Included)\n#declare %s_Included = 1;\n", name, name);
+  fs_writer_printf(w, "#declare %s_Min = ", name);
+  fs_povray_vector(w, m->min, 10);
+  fs_writer_printf(w, ";\n#declare %s_Max = ", name);
+  fs_povray_vector(w, m->max, 10);
+  fs_writer_printf(w, ";\n");
+}
+
+static void write_facts(fs_writer *w, const fs_povray_model *model, const fs_povray_pieces *pieces) {
+  fs_writer_printf(w, "// %d patches: %d of degree 3 or less, exact", (int)pieces->n_patches, (int)pieces->n_whole);
+  if (pieces->n_divided == 0) {
+    fs_writer_printf(w, "\n");
+    return;
+  }
+  fs_writer_printf(
+      w,
+      "; %d of higher degree (caps),\n"
+      "//   each approximated by 4^m bicubic pieces, m = %d: position, derivatives and twist at their corners\n"
+      "//   tolerance ",
+      (int)pieces->n_divided, (int)pieces->m);
+  fs_povray_number(w, model->tolerance, 4);
+  fs_writer_printf(w, ", largest deviation ");
+  fs_povray_number(w, pieces->deviation, 4);
+  fs_writer_printf(w, "\n//   largest angle between normals across the sides of caps, spokes included: ");
+  fs_povray_number(w, pieces->angle * (180 / 3.14159265358979323846), 4);
+  fs_writer_printf(w, " degrees\n");
+}
+
+/* Pieces of divided patches are drawn with m steps less, so that shared sides have the same vertices. */
+static void write_steps(fs_writer *w, const fs_povray_model *model, const fs_povray_pieces *pieces) {
+  const char *name = model->name;
+  fs_writer_printf(w, "// %s_Steps = k draws each patch as 2^k x 2^k cells; declare it before including this file\n",
+                   name);
+  fs_writer_printf(w, "#ifndef (%s_Steps) #declare %s_Steps = %d; #end\n", name, name, (int)model->steps);
+  if (pieces->n_divided == 0) return;
+  fs_writer_printf(w, "#if (%s_Steps < %d) #error \"%s_Steps must be %d or more\\n\" #end\n", name, (int)pieces->m + 1,
+                   name, (int)pieces->m + 1);
+  fs_writer_printf(w, "#declare %s_Less = %s_Steps - %d;\n", name, name, (int)pieces->m);
+}
+
+static void write_piece(fs_writer *w, const char *name, bool is_part, const fs_vec3 *point) {
+  const char *steps = is_part ? "Less" : "Steps";
+  fs_writer_printf(w, "bicubic_patch { type 1 flatness 0 u_steps %s_%s v_steps %s_%s\n", name, steps, name, steps);
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      fs_povray_vector(w, point[i + 4 * j], 10);
+      fs_writer_printf(w, i == 3 && j == 3 ? " }\n" : j == 3 ? ",\n" : ",");
+    }
+}
+
+fs_status fs_povray_write_bicubic(fs_context *ctx, const fs_povray_model *model, const fs_povray_pieces *pieces,
+                                  const fs_output *output) {
+  fs_writer writer, *w = &writer;
+  fs_writer_start(w, ctx, output, "inc");
+  fs_povray_write_head(w, model);
+  write_facts(w, model, pieces);
+  write_steps(w, model, pieces);
+  bool is_union = pieces->n_pieces > 1; /* a union of one object is warned of */
+  fs_writer_printf(w, "#declare %s =%s\n", model->name, is_union ? " union {" : "");
+  for (int32_t p = 0; p < pieces->n_patches; p++) {
+    bool is_part = !fs_povray_is_whole(&model->model->surface->patch[p]);
+    for (size_t k = pieces->first[p]; k < pieces->first[p + 1] && w->status == FS_OK; k++)
+      write_piece(w, model->name, is_part, pieces->point + 16 * k);
+  }
+  fs_writer_printf(w, "%s#end\n", is_union ? "}\n" : "");
+  return fs_writer_finish(w);
+}

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/* NAME.pov: a camera that sees the whole object, light, and a way to look at it.
+
+   The renderer is left-handed; "sky z" with a negated "right" shows right-handed data with z up as they are, without
+   negated coordinates, which would turn the surface inside out. */
+#include "povray.h"
+
+/* Texts in which $ stands for NAME. The helpers carry the name too, so that no name of an object can meet them. */
+static const char camera[] = "#declare $_Middle = ($_Min + $_Max) / 2;\n"
+                             "#declare $_Radius = vlength($_Max - $_Min) / 2;\n"
+                             "// the object fits a cone of half angle atan(0.25) whatever the shape of the picture\n"
+                             "camera {\n"
+                             "  location $_Middle + vnormalize(<2.3, -2.9, 2.3>) * $_Distance\n"
+                             "  sky z right -x * image_width / image_height up z\n"
+                             "  angle 2 * degrees(atan2(0.25 * max(1, image_width / image_height), 1))\n"
+                             "  look_at $_Middle\n"
+                             "}\n"
+                             "background { rgb 1 }\n";
+
+static const char *const scenes[] = {
+    [FS_POVRAY_SHADED] = "light_source { $_Middle + <3, -6, 8> * $_Radius rgb 1\n"
+                         "  area_light x * $_Radius, y * $_Radius, 4, 4 adaptive 1 }\n"
+                         "light_source { $_Middle + <-6, -2, 3> * $_Radius rgb 0.3 shadowless }\n"
+                         "#declare $_Finish = finish { ambient 0.1 diffuse 0.7 specular 0.4 roughness 0.008 }\n"
+                         "object { $\n"
+                         "  texture { pigment { rgb <0.30, 0.45, 0.62> } finish { $_Finish } }\n"
+                         "  interior_texture { pigment { rgb <0.66, 0.54, 0.36> } finish { $_Finish } }\n"
+                         "}\n",
+    [FS_POVRAY_ZEBRA] = "// stripes on a sphere that only the mirror sees\n"
+                        "sphere { 0, 1 hollow no_image no_shadow\n"
+                        "  pigment { gradient x triangle_wave frequency 5\n"
+                        "    color_map { [0 rgb 1] [0.485 rgb 1] [0.515 rgb 0.02] [1 rgb 0.02] } }\n"
+                        "  finish { ambient 0 emission 1 diffuse 0 }\n"
+                        "  scale 50 * $_Radius translate $_Middle\n"
+                        "}\n"
+                        "object { $ pigment { rgb 0 } finish { ambient 0 diffuse 0 reflection 1 } no_reflection }\n",
+    [FS_POVRAY_ISOPHOTE] = "// stripes of equal angle to a direction\n"
+                           "object { $\n"
+                           "  pigment { slope { <0.4, -0.6, 0.7> } frequency 16\n"
+                           "    color_map { [0 rgb 0.1] [0.49 rgb 0.1] [0.51 rgb 1] [1 rgb 1] } }\n"
+                           "  finish { ambient 0 emission 0.75 diffuse 0 }\n"
+                           "}\n",
+    [FS_POVRAY_CURVATURE] =
+        "light_source { $_Middle + <3, -6, 8> * $_Radius rgb 0.8 shadowless }\n"
+        "// colours of the measure from $_Low at 0 to $_High at 1\n"
+        "object { $\n"
+        "  texture { uv_mapping\n"
+        "    pigment { gradient x color_map { [0 rgb <0.1, 0.2, 0.75>] [0.25 rgb <0.25, 0.75, 0.85>]\n"
+        "      [0.5 rgb <0.95, 0.95, 0.9>] [0.75 rgb <0.95, 0.75, 0.2>] [1 rgb <0.75, 0.1, 0.1>] } }\n"
+        "    finish { ambient 0.35 diffuse 0.6 }\n"
+        "  }\n"
+        "}\n",
+};
+
+static void write_text(fs_writer *w, const char *text, const char *name) {
+  for (; *text != '\0'; text++) {
+    if (*text == '$')
+      fs_writer_text(w, name);
+    else
+      fs_writer_bytes(w, text, 1);
+  }
+}
+
+fs_status fs_povray_write_scene(fs_context *ctx, const fs_povray_model *model, fs_povray_scene scene,
+                                const fs_output *output) {
+  fs_writer writer;
+  const char *stem = model->model->name;
+  fs_writer_start(&writer, ctx, output, "pov");
+  write_text(&writer, "// $: a smooth surface made by fairsurf; render with +W960 +H720 +A0.1\n", model->name);
+  write_text(&writer, "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n", model->name);
+  fs_povray_include(&writer, stem != NULL && *stem != '\0' ? stem : model->name);
+  write_text(&writer, "#declare $_Distance = ", model->name);
+  fs_povray_number(&writer, model->distance, 6);
+  fs_writer_text(&writer, ";\n");
+  write_text(&writer, camera, model->name);
+  write_text(&writer, scenes[scene], model->name);
+  return fs_writer_finish(&writer);
+}

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+/* Fairing: choose the free dofs of a space so that an integral over its surface is least. */
+#ifndef FAIRSURF_FAIR_H
+#define FAIRSURF_FAIR_H
+
+#include <fairsurf/space.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Points are handled in blocks of this many; the arrays of a density have them innermost. */
+enum { FS_BLOCK = 8 };
+
+/* An integrand: a function of the derivatives of the position at one point, and its own derivatives by them.
+   n = 2, 5, 9 derivative vectors for order 1, 2, 3, numbered FS_DU, FS_DV, … minus 1:
+     x[n][3][FS_BLOCK] -> f[FS_BLOCK], df[n][3][FS_BLOCK], ddf[n (n + 1) / 2][3][3][FS_BLOCK],
+   ddf holds one 3x3 block per pair i <= j; pair (i, j) is number i n - i (i - 1) / 2 + j - i; block[a][b] is the second
+   derivative by component a of vector i and component b of vector j. df and ddf may be NULL: that work is skipped. */
+typedef struct fs_density {
+  const char *name, *summary;
+  int32_t order;     /* highest derivative used; the space needs continuity >= order - 1 */
+  bool is_geometric; /* unchanged when the surface is reparametrised: fed derivatives by (u, v) and integrated over the
+                        unit squares; else fed derivatives by the coordinates of the element's chart, integrated there */
+  bool is_quadratic; /* the second derivatives are constant: one Newton step reaches the minimum */
+  void (*evaluate)(const double *x, double *f, double *df, double *ddf);
+} fs_density;
+FS_API extern const fs_density fs_density_curvature_variation; /* |grad_M H|^2 sqrt(det G) */
+FS_API extern const fs_density fs_density_tangential;          /* tangential part of |grad Laplace p|^2 */
+FS_API extern const fs_density fs_density_triharmonic;         /* |grad Laplace p|^2 */
+
+/* What the weights of a functional may depend on besides its parameters. */
+typedef struct fs_scale {
+  int32_t n_squares; /* elements of the space */
+  double diameter;   /* largest distance between two fixed control vertices (0: fewer than two) */
+} fs_scale;
+
+/* A weighted sum of integrals. Lines of a table. */
+enum { FS_MAX_TERMS = 4 };
+typedef struct fs_functional {
+  const char *name, *summary;
+  const fs_param *params;
+  int32_t n_terms;
+  const fs_density *term[FS_MAX_TERMS];
+  void (*weights)(const double *param, const fs_scale *scale, double *weight); /* weight[n_terms] */
+} fs_functional;
+FS_API extern const fs_functional *const fs_functionals[];        /* ends with NULL; the first is the default */
+FS_API const fs_functional *fs_functional_find(const char *name); /* NULL: unknown */
+
+/* Why an iteration ended: the gradient, the step or the possible decrease became negligible; or a limit; or the caller. */
+typedef enum fs_stop {
+  FS_STOP_GRADIENT,
+  FS_STOP_STEP,
+  FS_STOP_DECREASE,
+  FS_STOP_ITERATIONS,
+  FS_STOP_CANCELLED
+} fs_stop;
+FS_API const char *fs_stop_text(fs_stop stop); /* "gradient", "step", "decrease", "iterations", "cancelled" */
+
+/* One accepted step of the minimisation. */
+typedef struct fs_step {
+  int32_t number;           /* from 1; 0 is the start */
+  double value;             /* of the functional, after the step */
+  double gradient;          /* Euclidean norm of its gradient there */
+  double damping;           /* relative to the diagonal of the Hessian; 0 for a Newton step */
+  double length;            /* Euclidean norm of the step */
+  double gain;              /* actual decrease / predicted decrease */
+  int32_t n_factorisations; /* needed for this step */
+  double seconds;           /* since the start */
+} fs_step;
+
+/* Values of the integrals, over all elements, fixed ones included. */
+typedef struct fs_energy {
+  double F;                                                   /* the functional */
+  double integral[FS_MAX_TERMS], integral_caps[FS_MAX_TERMS]; /* of each term, unweighted; the part on caps */
+  double weight[FS_MAX_TERMS];
+  double S, S_caps, Q; /* curvature variation, its part on caps, tangential part; whatever the functional is */
+  double gradient;     /* Euclidean norm of the gradient of F by the free dofs */
+} fs_energy;
+
+typedef struct fs_fair_options {
+  const fs_functional *functional;     /* NULL: the first of the table */
+  const double *param;                 /* NULL: initial values of its params */
+  const bool *fixed;                   /* [n_dofs], at least the rim where there is one; NULL: nothing is fixed */
+  int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction; 0: 8 on squares, 12 in caps; at most 32 */
+  int32_t max_iterations;              /* 0: 100; negative: none, only the energies are reported */
+  double gradient_tolerance;           /* relative to the start; 0: 1e-8 */
+  bool start_triharmonic;              /* begin at the minimum of the triharmonic functional (a linear problem) */
+  bool (*monitor)(void *user, const fs_step *step); /* called after every accepted step; false cancels */
+  void *monitor_user;
+} fs_fair_options;
+
+enum { FS_MAX_TRACE = 256 };
+typedef struct fs_fair_report {
+  fs_stop stop;
+  int32_t n_free, n_squares, n_caps; /* free dofs (a dof is a point), elements, special vertices */
+  int32_t n_steps, n_hessians, n_factorisations;
+  double c; /* weight of Q in F; 0 where the functional has no such term */
+  fs_energy start, end;
+  int32_t n_trace;
+  fs_step trace[FS_MAX_TRACE]; /* the start and the first accepted steps */
+} fs_fair_report;
+
+/* Moves the free dofs of c[n_dofs] (in: a start, for example space->start; out: the result) to a minimum of the
+   functional: Levenberg-Marquardt with gain ratio, Newton steps at the end, exact Hessians [Kiciak 2013; docs/].
+   Cancelling by monitor or by ctx->progress keeps the best iterate: FS_OK and stop = FS_STOP_CANCELLED.
+   No free dof: FS_OK, nothing moves. A functional of order above continuity + 1 is FS_ERR_UNSUPPORTED.
+   A surface that is not regular at a quadrature node at the start (p_u x p_v = 0) is FS_ERR_NUMERIC, with the face. */
+FS_API fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options *options, fs_vec3 *c,
+                         fs_fair_report *report);
+
+/* The energies of the surface with dofs c; F and gradient by options as fs_fair has them. */
+FS_API fs_status fs_fair_energy(fs_context *ctx, const fs_space *space, const fs_fair_options *options,
+                                const fs_vec3 *c, fs_energy *energy);
+
+/* Name of the BLAS library that the solver runs on, for example a path; and whether it is the slow reference one. */
+FS_API const char *fs_blas_name(bool *is_reference);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

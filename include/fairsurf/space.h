@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+/* Spaces of piecewise polynomial surfaces over a mesh. Every element is a Bezier patch whose control points depend
+   linearly on the unknowns (dofs): b = E c, Bezier extraction [Borden Scott Evans Hughes 2011]. E depends on the
+   connectivity only, and congruent elements share one. */
+#ifndef FAIRSURF_SPACE_H
+#define FAIRSURF_SPACE_H
+
+#include <fairsurf/mesh.h>
+#include <fairsurf/refine.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Sides and corners of an element, parameters (u, v) in [0, 1]^2; the surface's outside is p_u x p_v:
+
+        (0,1) --- side 2 --- (1,1)
+          |                    |         Side s runs anticlockwise from corner s to corner s + 1:
+        side 3              side 1       0: v = 0, u up    1: u = 1, v up    2: v = 1, u down    3: u = 0, v down
+          |                    |
+        (0,0) --- side 0 --- (1,0)                                                                                  */
+
+typedef struct fs_extraction {
+  int32_t degree_u, degree_v, n_dofs;
+  double *E; /* [(degree_u + 1)(degree_v + 1)][n_dofs]; Bezier point (i, j), i along u, is row i + (degree_u + 1) j */
+  double *chart;    /* NULL: the unit square is the chart; else Bezier points [rows of E][2] of the element in the plane
+                     domain of its cap, scaled so that the area per element is 1 on average */
+  int32_t valence;  /* of the cap; 4 for regular elements */
+  bool is_borrowed; /* E and chart belong to the context */
+} fs_extraction;
+
+typedef struct fs_element {
+  int32_t face;              /* control face it lies on */
+  int32_t halfedge;          /* half-edge of that face along side 0, from corner (0, 0) */
+  int32_t extraction;        /* shared by congruent elements */
+  int32_t dof_start;         /* its dofs: dof[dof_start] .. dof[dof_start + extraction.n_dofs - 1] */
+  int32_t neighbour[4];      /* element across each side, or FS_NONE */
+  uint8_t neighbour_side[4]; /* the side of the neighbour that meets ours; it runs the other way */
+} fs_element;
+
+typedef struct fs_space {
+  int32_t n_vertices, n_dofs;                /* dofs 0 .. n_vertices - 1 are the control vertices */
+  int32_t n_elements, n_extractions, n_caps; /* n_caps: special vertices that carry a cap */
+  int32_t continuity;                        /* weakest contact between neighbouring elements: 2 for G2 */
+  int64_t n_element_dofs;                    /* size of dof */
+  fs_element *element;
+  fs_extraction *extraction;
+  int32_t *dof;
+  fs_vec3 *start; /* [n_dofs] positions of the control vertices, zero for further dofs */
+} fs_space;
+
+/* Derivatives up to order 3, numbered the same everywhere. */
+enum { FS_D, FS_DU, FS_DV, FS_DUU, FS_DUV, FS_DVV, FS_DUUU, FS_DUUV, FS_DUVV, FS_DVVV, FS_JET_SIZE };
+
+/* A rule that covers faces with elements. Lines of a table, tried in order; a face belongs to the first that claims it. */
+typedef struct fs_space_builder fs_space_builder;
+typedef struct fs_patch_rule {
+  const char *name, *summary;
+  int32_t continuity;
+  fs_status (*claim)(fs_context *ctx, const fs_mesh *mesh, int32_t rule, int32_t *owner); /* owner[face] = rule */
+  fs_status (*build)(fs_context *ctx, const fs_mesh *mesh, int32_t rule, const int32_t *owner,
+                     fs_space_builder *builder);
+} fs_patch_rule;
+FS_API extern const fs_patch_rule *const fs_patch_rules[]; /* ends with NULL: trim, bspline, g2cap */
+
+/* Builds the space of a mesh: faces with a boundary vertex carry no element (trim); faces whose four corners have
+   valence 4 carry a bicubic B-spline square; the k faces around an interior vertex of valence k = 3, 5 .. 24 carry a
+   G2 cap of degree (9, 9) [Kiciak 2013]. FS_ERR_UNSUPPORTED names the face that no rule takes, or says that no face has
+   a full net. The mesh is not kept. */
+FS_API fs_status fs_space_create(fs_context *ctx, const fs_mesh *mesh, fs_space **space);
+FS_API void fs_space_free(fs_context *ctx, fs_space *space); /* NULL is allowed */
+
+/* Checks the invariants: partition of unity of every extraction, element to element adjacency both ways, dofs in range. */
+FS_API fs_status fs_space_validate(fs_context *ctx, const fs_space *space);
+
+/* What stands between a mesh and its space. */
+typedef struct fs_space_obstacles {
+  int32_t n_non_quads;        /* faces not of 4 vertices that a rule would have to cover or look at */
+  int32_t n_close_specials;   /* special vertices that share a face with another one */
+  int32_t n_rim_specials;     /* special vertices, or non-quads, that touch the boundary zone of trimmed faces */
+  int32_t n_uncovered_faces;  /* faces that no rule takes as the mesh stands; 0: the space can be made */
+  int32_t n_elements, n_cap_elements, n_caps; /* what the space would consist of: elements, those of caps included */
+  int32_t first_face;         /* an uncovered face, or FS_NONE */
+  int32_t bad_vertex;         /* interior vertex of valence 2 or above 24, which no refinement mends, or FS_NONE */
+  bool special_near_boundary; /* a special vertex at edge distance 1 from the boundary, or a non-quad that touches it */
+} fs_space_obstacles;
+FS_API fs_status fs_space_examine(fs_context *ctx, const fs_mesh *mesh, fs_space_obstacles *obstacles);
+
+/* Refines a mesh as often as its space needs, at most twice: by averagings (n = 3) when every special vertex is at edge
+   distance 2 or more from the boundary, else by Catmull-Clark. Notes say which and why (ctx->note).
+   steps[0 .. *n_steps - 1] are the refinements in order; the caller frees them. The mesh to use is that of the last one,
+   or the given one if there is none. at_least: refine so often in any case (0 .. FS_MAX_REFINEMENTS - 2).
+   FS_ERR_UNSUPPORTED where refinement cannot help: interior valence 2 or above 24, no face with a full net; and for
+   meshes of mostly triangles with more than 5 000 faces unless at_least > 0. */
+enum { FS_MAX_REFINEMENTS = 10 };
+FS_API fs_status fs_space_prepare(fs_context *ctx, const fs_mesh *mesh, int32_t at_least,
+                                  fs_refinement *steps[FS_MAX_REFINEMENTS], int32_t *n_steps);
+
+/* fixed[n_dofs] = true for the control vertices that act on position, first or second derivatives at the rim: those at
+   face distance 2 or less from the boundary (two steps over faces). Further dofs are free. */
+FS_API fs_status fs_space_rim(fs_context *ctx, const fs_mesh *mesh, const fs_space *space, bool *fixed);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

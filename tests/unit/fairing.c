@@ -1,0 +1,369 @@
+/* SPDX-License-Identifier: MIT */
+/* Assembly and fairing: derivatives by the dofs against differences, threads, stopping, and surfaces whose fairest form is
+   known: a disturbed piece of a sphere and of a cylinder must come back. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "fair/problem.h"
+#include "fairsurf/surface.h"
+#include "support.h"
+
+/* ---- derivatives ---- */
+
+static const fs_density *const S_and_Q[2] = {&fs_density_curvature_variation, &fs_density_tangential};
+
+typedef struct fixture {
+  fs_context ctx;
+  fs_space *space;
+  fs_problem *problem;
+  int32_t n;
+  double *x, *g;
+} fixture;
+
+static void fixture_create(fixture *f, fs_mesh *mesh, const bool *fixed, double weight_S, double weight_Q, int32_t nodes) {
+  *f = (fixture){.ctx = test_context()};
+  assert_int_equal(fs_space_create(&f->ctx, mesh, &f->space), FS_OK);
+  assert_int_equal(fs_space_validate(&f->ctx, f->space), FS_OK);
+  assert_int_equal(fs_problem_create(&f->ctx, f->space, 2, S_and_Q, fixed, nodes, nodes, f->space->start, &f->problem), FS_OK);
+  f->problem->weight[0] = weight_S;
+  f->problem->weight[1] = weight_Q;
+  f->n = 3 * f->problem->n_free;
+  f->x = calloc((size_t)f->n, sizeof *f->x);
+  f->g = calloc((size_t)f->n, sizeof *f->g);
+  fs_problem_get(f->problem, f->x);
+}
+
+static void fixture_free(fixture *f) {
+  free(f->x);
+  free(f->g);
+  fs_problem_free(&f->ctx, f->problem);
+  fs_space_free(&f->ctx, f->space);
+  fs_context_clear(&f->ctx);
+}
+
+static double value_at(fixture *f, const double *x, double *g) {
+  double integral[2];
+  fs_problem_set(f->problem, x);
+  assert_int_equal(fs_problem_evaluate(f->problem, g != NULL ? FS_GRADIENT : FS_VALUE, integral, NULL, g, NULL), FS_OK);
+  return f->problem->weight[0] * integral[0] + f->problem->weight[1] * integral[1];
+}
+
+/* Directional derivatives of F and of its gradient, central differences with one extrapolation. */
+static void check_derivatives(fixture *f, double gradient_tolerance, double hessian_tolerance) {
+  size_t n = (size_t)f->n;
+  double *d = calloc(n, sizeof *d), *y = calloc(n, sizeof *y), *Hd = calloc(n, sizeof *Hd), *gp = calloc(n, sizeof *gp);
+  double *gm = calloc(n, sizeof *gm), integral[2];
+  uint64_t seed = 17;
+  assert_int_equal(fs_problem_evaluate(f->problem, FS_HESSIAN, integral, NULL, f->g, f->problem->pattern), FS_OK);
+  for (int trial = 0; trial < 3; trial++) {
+    double along = 0, difference[2], largest = 0, error = 0;
+    for (size_t i = 0; i < n; i++) {
+      d[i] = test_random_real(&seed, -1, 1);
+      along += d[i] * f->g[i];
+    }
+    for (int k = 0; k < 2; k++) {
+      double h = k == 0 ? 2e-4 : 1e-4, plus, minus;
+      for (size_t i = 0; i < n; i++) y[i] = f->x[i] + h * d[i];
+      plus = value_at(f, y, gp);
+      for (size_t i = 0; i < n; i++) y[i] = f->x[i] - h * d[i];
+      minus = value_at(f, y, gm);
+      difference[k] = (plus - minus) / (2 * h);
+    }
+    assert_true(fabs((4 * difference[1] - difference[0]) / 3 - along) <= gradient_tolerance * fabs(along));
+    fs_sparse_multiply(f->problem->pattern, d, Hd);
+    for (size_t i = 0; i < n; i++) {
+      largest = fmax(largest, fabs(Hd[i]));
+      error = fmax(error, fabs((gp[i] - gm[i]) / 2e-4 - Hd[i]));
+    }
+    assert_true(error <= hessian_tolerance * largest);
+  }
+  free(d), free(y), free(Hd), free(gp), free(gm);
+}
+
+static void derivatives_on(fs_mesh *mesh, double weight_S, double weight_Q) {
+  fixture f;
+  fs_context ctx = test_context();
+  uint64_t seed = 23;
+  test_mesh_disturb(mesh, 0.03, &seed);
+  fixture_create(&f, mesh, NULL, weight_S, weight_Q, 6);
+  check_derivatives(&f, 1e-7, 1e-5);
+  fixture_free(&f);
+  fs_mesh_free(&ctx, mesh);
+}
+
+static void test_derivatives_squares(void **state) {
+  (void)state;
+  derivatives_on(test_torus(9, 7, 3, 1), 1, 0);
+  derivatives_on(test_torus(9, 7, 3, 1), 1, 0.2);
+  derivatives_on(test_torus(9, 7, 3, 1), 0, 1);
+}
+
+static void test_derivatives_caps(void **state) {
+  (void)state;
+  derivatives_on(test_star(3, 4), 1, 0);
+  derivatives_on(test_star(5, 4), 1, 0.2);
+  derivatives_on(test_star(6, 4), 0, 1);
+}
+
+/* Nets so small that a vertex occurs twice in the net of one element. */
+static void test_derivatives_repeated_dofs(void **state) {
+  (void)state;
+  derivatives_on(test_torus(4, 3, 3, 1), 1, 0.1);
+}
+
+/* ---- threads ---- */
+
+static void test_threads(void **state) {
+  fs_mesh *mesh = test_star(5, 7);
+  fixture f[3];
+  static const int32_t n_threads[3] = {1, 2, 7};
+  double F[3];
+  (void)state;
+  for (int i = 0; i < 3; i++) {
+    fs_context ctx = test_context();
+    f[i] = (fixture){.ctx = ctx};
+    f[i].ctx.n_threads = n_threads[i];
+    assert_int_equal(fs_space_create(&f[i].ctx, mesh, &f[i].space), FS_OK);
+    assert_int_equal(
+        fs_problem_create(&f[i].ctx, f[i].space, 2, S_and_Q, NULL, 5, 5, f[i].space->start, &f[i].problem), FS_OK);
+    f[i].problem->weight[0] = f[i].problem->weight[1] = 1;
+    f[i].n = 3 * f[i].problem->n_free;
+    f[i].x = calloc((size_t)f[i].n, sizeof(double));
+    f[i].g = calloc((size_t)f[i].n, sizeof(double));
+    double integral[2];
+    assert_int_equal(
+        fs_problem_evaluate(f[i].problem, FS_HESSIAN, integral, NULL, f[i].g, f[i].problem->pattern), FS_OK);
+    F[i] = integral[0] + integral[1];
+    assert_true(F[i] == F[0]);
+    assert_memory_equal(f[i].g, f[0].g, (size_t)f[0].n * sizeof(double));
+    assert_memory_equal(f[i].problem->pattern->value, f[0].problem->pattern->value,
+                        9 * (size_t)f[0].problem->pattern->col_start[f[0].problem->pattern->n_blocks] * sizeof(double));
+  }
+  for (int i = 0; i < 3; i++) fixture_free(&f[i]);
+  fs_context ctx = test_context();
+  fs_mesh_free(&ctx, mesh);
+}
+
+/* ---- surfaces that must come back ---- */
+
+typedef struct faired {
+  fs_fair_report report;
+  double S_undisturbed, deviation; /* of points of the surface from the best sphere or cylinder, relative to its radius */
+} faired;
+
+/* Radius and centre of the least squares sphere |x|^2 = 2 c.x + d through points (algebraic fit, then r^2 = d + |c|^2); with
+   `axis` the z axis is a direction of the cylinder and z is left out. Returns the largest deviation / r. */
+static double fit_deviation(const fs_vec3 *p, int32_t n, bool is_cylinder) {
+  double A[4][5] = {{0}}, solution[4], r, worst = 0;
+  int m = is_cylinder ? 3 : 4;
+  for (int32_t i = 0; i < n; i++) {
+    double z = is_cylinder ? 0 : p[i].z, rhs = p[i].x * p[i].x + p[i].y * p[i].y + z * z;
+    double row[4] = {2 * p[i].x, 2 * p[i].y, is_cylinder ? 1 : 2 * z, 1};
+    for (int a = 0; a < m; a++) {
+      for (int b = 0; b < m; b++) A[a][b] += row[a] * row[b];
+      A[a][4] += row[a] * rhs;
+    }
+  }
+  for (int c = 0; c < m; c++) /* positive definite: no exchange of rows */
+    for (int a = c + 1; a < m; a++) {
+      double factor = A[a][c] / A[c][c];
+      for (int b = 0; b < 5; b++) A[a][b] -= factor * A[c][b];
+    }
+  for (int c = m - 1; c >= 0; c--) {
+    solution[c] = A[c][4];
+    for (int b = c + 1; b < m; b++) solution[c] -= A[c][b] * solution[b];
+    solution[c] /= A[c][c];
+  }
+  double cx = solution[0], cy = solution[1], cz = is_cylinder ? 0 : solution[2];
+  r = sqrt(solution[m - 1] + cx * cx + cy * cy + cz * cz);
+  for (int32_t i = 0; i < n; i++) {
+    double z = is_cylinder ? 0 : p[i].z - cz;
+    worst = fmax(worst, fabs(hypot(hypot(p[i].x - cx, p[i].y - cy), z) - r) / r);
+  }
+  return worst;
+}
+
+static void fair_disturbed(fs_mesh *mesh, bool is_cylinder, uint64_t seed, double radius, faired *result) {
+  fs_context ctx = test_context();
+  fs_space *space = NULL;
+  fs_surface *surface = NULL;
+  fs_triangles *triangles = NULL;
+  fs_fair_options options = {.functional = fs_functional_find("penalised")};
+  assert_int_equal(fs_space_create(&ctx, mesh, &space), FS_OK);
+  bool *fixed = calloc((size_t)space->n_dofs, sizeof *fixed);
+  fs_vec3 *c = calloc((size_t)space->n_dofs, sizeof *c);
+  assert_int_equal(fs_space_rim(&ctx, mesh, space, fixed), FS_OK);
+  options.fixed = fixed;
+  memcpy(c, space->start, (size_t)space->n_dofs * sizeof *c);
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &result->report), FS_OK);
+  result->S_undisturbed = result->report.end.S;
+  for (int32_t v = 0; v < space->n_dofs; v++) {
+    c[v] = space->start[v];
+    if (fixed[v]) continue;
+    c[v].x += test_random_real(&seed, -0.1, 0.1) * radius;
+    c[v].y += test_random_real(&seed, -0.1, 0.1) * radius;
+    c[v].z += test_random_real(&seed, -0.1, 0.1) * radius;
+  }
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &result->report), FS_OK);
+  assert_int_equal(fs_surface_create(&ctx, space, c, &surface), FS_OK);
+  assert_int_equal(fs_tessellate(&ctx, surface, 4, &triangles), FS_OK);
+  result->deviation = fit_deviation(triangles->position, triangles->n_vertices, is_cylinder);
+  fs_triangles_free(&ctx, triangles);
+  fs_surface_free(&ctx, surface);
+  fs_space_free(&ctx, space);
+  free(fixed);
+  free(c);
+}
+
+static void check_comes_back(fs_mesh *(*make)(void), bool is_cylinder) {
+  fs_context ctx = test_context();
+  double S[3];
+  for (int seed = 0; seed < 3; seed++) {
+    fs_mesh *mesh = make();
+    faired result;
+    fair_disturbed(mesh, is_cylinder, (uint64_t)seed + 1, 1, &result);
+    S[seed] = result.report.end.S;
+    assert_true(fabs(S[seed] - S[0]) <= 1e-6 * S[0]);
+    assert_true(S[seed] <= 1.01 * result.S_undisturbed);
+    assert_true(result.deviation <= 5e-4);
+    fs_mesh_free(&ctx, mesh);
+  }
+}
+
+/* 12x12 faces on the unit sphere, half angle 35 degrees, vertices at the projections of an even grid of angles. */
+static fs_mesh *sphere_cap(void) {
+  fs_mesh *mesh = test_grid(12, 12, NULL);
+  for (int32_t v = 0; v < mesh->n_vertices; v++) {
+    double unit = tan(35 * acos(-1.0) / 180) / 6, x = (mesh->position[v].x - 6) * unit, y = (mesh->position[v].y - 6) * unit;
+    double length = sqrt(1 + x * x + y * y);
+    mesh->position[v] = (fs_vec3){x / length, y / length, 1 / length};
+  }
+  return mesh;
+}
+
+/* 24 faces around, 11 along; the unit cylinder about the z axis. */
+static fs_mesh *tube(void) {
+  enum { AROUND = 24, LONG = 11 };
+  fs_vec3 position[AROUND * (LONG + 1)];
+  int32_t start[AROUND * LONG + 1], corner[4 * AROUND * LONG], n = 0;
+  for (int j = 0; j <= LONG; j++)
+    for (int i = 0; i < AROUND; i++) {
+      double angle = 2 * acos(-1.0) * i / AROUND;
+      position[i + AROUND * j] = (fs_vec3){cos(angle), sin(angle), 0.2618 * j};
+    }
+  for (int j = 0; j < LONG; j++)
+    for (int i = 0; i < AROUND; i++) {
+      start[n / 4] = n;
+      corner[n++] = i + AROUND * j;
+      corner[n++] = (i + 1) % AROUND + AROUND * j;
+      corner[n++] = (i + 1) % AROUND + AROUND * (j + 1);
+      corner[n++] = i + AROUND * (j + 1);
+    }
+  start[n / 4] = n;
+  return test_mesh(AROUND * (LONG + 1), position, AROUND * LONG, start, corner);
+}
+
+static void test_sphere_comes_back(void **state) {
+  (void)state;
+  check_comes_back(sphere_cap, false);
+}
+
+static void test_cylinder_comes_back(void **state) {
+  (void)state;
+  check_comes_back(tube, true);
+}
+
+/* ---- options and refusals ---- */
+
+static bool stop_at_second_step(void *user, const fs_step *step) {
+  (void)user;
+  return step->number < 2;
+}
+
+static void test_course(void **state) {
+  fs_context ctx = test_context();
+  fs_mesh *mesh = sphere_cap();
+  fs_space *space = NULL;
+  fs_fair_report full, cut;
+  fs_energy energy;
+  uint64_t seed = 5;
+  (void)state;
+  assert_int_equal(fs_space_create(&ctx, mesh, &space), FS_OK);
+  bool *fixed = calloc((size_t)space->n_dofs, sizeof *fixed);
+  fs_vec3 *c = calloc((size_t)space->n_dofs, sizeof *c), *start = calloc((size_t)space->n_dofs, sizeof *c);
+  assert_int_equal(fs_space_rim(&ctx, mesh, space, fixed), FS_OK);
+  memcpy(start, space->start, (size_t)space->n_dofs * sizeof *c);
+  for (int32_t v = 0; v < space->n_dofs; v++)
+    if (!fixed[v]) start[v].z += test_random_real(&seed, -0.05, 0.05);
+  fs_fair_options options = {.fixed = fixed};
+
+  /* monotone, quadratic at the end, the gradient 1e-8 of its start */
+  memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &full), FS_OK);
+  assert_int_equal(full.stop, FS_STOP_GRADIENT);
+  assert_true(full.end.gradient <= 1e-8 * full.start.gradient);
+  for (int32_t i = 1; i < full.n_trace; i++) assert_true(full.trace[i].value <= full.trace[i - 1].value);
+  for (int32_t v = 0; v < space->n_dofs; v++)
+    if (fixed[v]) assert_memory_equal(&c[v], &start[v], sizeof *c);
+
+  /* the energy function agrees with the report */
+  assert_int_equal(fs_fair_energy(&ctx, space, &options, c, &energy), FS_OK);
+  assert_true(energy.F == full.end.F && energy.S == full.end.S && energy.Q == full.end.Q);
+  assert_true(fabs(energy.F - energy.S - full.c * energy.Q) <= 1e-14 * energy.F);
+
+  /* cancelled: the best iterate */
+  memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+  options.monitor = stop_at_second_step;
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_OK);
+  assert_int_equal(cut.stop, FS_STOP_CANCELLED);
+  assert_true(cut.end.F < cut.start.F && cut.n_steps == 2);
+  options.monitor = NULL;
+
+  /* the triharmonic functional is quadratic: one step */
+  memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+  options.functional = fs_functional_find("triharmonic");
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_OK);
+  assert_true(cut.n_hessians <= 2 && cut.end.gradient <= 1e-8 * cut.start.gradient);
+  options.functional = NULL;
+
+  /* started there, the same minimum of F */
+  memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+  options.start_triharmonic = true;
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_OK);
+  assert_true(fabs(cut.end.F - full.end.F) <= 1e-9 * full.end.F);
+  options.start_triharmonic = false;
+
+  /* a parameter out of range; a surface that is not regular names the face */
+  double C = -1;
+  options.param = &C;
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_ERR_ARGUMENT);
+  options.param = NULL;
+  for (int32_t v = 0; v < space->n_dofs; v++) c[v] = (fs_vec3){1, 2, 3};
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_ERR_NUMERIC);
+  assert_non_null(strstr(ctx.message, "face"));
+
+  /* nothing free: nothing moves */
+  for (int32_t v = 0; v < space->n_dofs; v++) fixed[v] = true;
+  memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_OK);
+  assert_memory_equal(c, start, (size_t)space->n_dofs * sizeof *c);
+  assert_true(cut.n_free == 0 && cut.end.F == cut.start.F);
+  free(c), free(start), free(fixed);
+  fs_space_free(&ctx, space);
+  fs_mesh_free(&ctx, mesh);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_derivatives_squares),       cmocka_unit_test(test_derivatives_caps),
+      cmocka_unit_test(test_derivatives_repeated_dofs), cmocka_unit_test(test_threads),
+      cmocka_unit_test(test_course),                    cmocka_unit_test(test_sphere_comes_back),
+      cmocka_unit_test(test_cylinder_comes_back),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
