@@ -106,6 +106,13 @@ fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver 
     status = failed(ctx, s, "analysis");
     goto done;
   }
+  /* made here, since the solution itself does not survive when it cannot allocate them */
+  if (cholmod_ensure_dense(&s->solution, n, 1, n, CHOLMOD_REAL, &s->common) == NULL ||
+      cholmod_ensure_dense(&s->work_y, n, 1, n, CHOLMOD_REAL, &s->common) == NULL ||
+      cholmod_ensure_dense(&s->work_e, 1, s->factor->maxesize, 1, CHOLMOD_REAL, &s->common) == NULL) {
+    status = failed(ctx, s, "analysis");
+    goto done;
+  }
   *solver = s;
   s = NULL;
 done:
