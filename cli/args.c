@@ -20,6 +20,7 @@ enum {
   KEY_NODES,
   KEY_ITERATIONS,
   KEY_THREADS,
+  KEY_BLAS_THREADS,
   KEY_FUNCTIONAL,
   KEY_START,
   KEY_NAME,
@@ -238,6 +239,7 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case KEY_NODES: a->nodes = parse_integer(state, "nodes", text, 1, 32); break;
   case KEY_ITERATIONS: a->max_iterations = parse_integer(state, "max-iterations", text, 0, INT_MAX); break;
   case KEY_THREADS: a->threads = parse_integer(state, "threads", text, 1, 64); break;
+  case KEY_BLAS_THREADS: a->blas_threads = parse_integer(state, "blas-threads", text, 1, 64); break;
   case KEY_FUNCTIONAL:
     a->functional = fs_functional_find(text);
     if (a->functional == NULL) argp_error(state, "--functional %s is unknown; fairsurf --list shows the known ones", text);
@@ -294,6 +296,7 @@ static const struct argp_option fixed_options[] = {
     {"nodes", KEY_NODES, "N", 0, "Gauss nodes per direction, everywhere (default: 8 on squares, 12 in caps)", 0},
     {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100); 0 only measures", 0},
     {"threads", KEY_THREADS, "N", 0, "threads (1)", 0},
+    {"blas-threads", KEY_BLAS_THREADS, "N", 0, "threads of the linear algebra (1)", 0},
     {NULL, 0, NULL, 0, "About:", 9},
     {"list", KEY_LIST, NULL, 0, "list functionals, rules, refinements, formats, measures", 0},
     {"version", 'V', NULL, 0, "print the version and the BLAS in use", 0},
@@ -314,7 +317,7 @@ void parse_arguments(int argc, char **argv, arguments *a) {
   parser p = {.arguments = a};
   struct argp_option options[N_FIXED_OPTIONS + MAX_NAMES + 2] = {{0}};
   int n = 0;
-  *a = (arguments){.functional = fs_functionals[0], .refiner = "averaging", .max_iterations = 100, .threads = 1};
+  *a = (arguments){.functional = fs_functionals[0], .refiner = "averaging", .max_iterations = 100, .threads = 1, .blas_threads = 1};
   collect_params(&p);
   for (int i = 0; i < N_FIXED_OPTIONS; i++) options[n++] = fixed_options[i];
   options[n++] = (struct argp_option){.doc = "Parameters (of functionals, refinements, file formats):", .group = 5};

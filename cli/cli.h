@@ -28,7 +28,7 @@ typedef struct arguments {
   const char *name;                /* of the object in the files, or NULL: the stem */
   const char *fixed, *report;      /* files, or NULL */
   bool json, no_refine, quiet, start_triharmonic;
-  int32_t refine, nodes, max_iterations, threads;
+  int32_t refine, nodes, max_iterations, threads, blas_threads;
   const char *refiner;             /* of the command refine */
   double refiner_param[MAX_PARAM_VALUES];
   const fs_functional *functional;

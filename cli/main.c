@@ -237,6 +237,7 @@ int main(int argc, char **argv) {
   fs_status status;
   int code;
   signal(SIGINT, interrupt);
+  fs_blas_set_threads(arguments.blas_threads);
   status = run(&j);
   code = exit_code(status);
   if (status != FS_OK) fprintf(stderr, "fairsurf: %s\n", ctx.message[0] != '\0' ? ctx.message : fs_status_text(status));

@@ -4,73 +4,104 @@
      F(c) = sum over elements e, points q, terms t of  w_t w_q f_t(N_q c_e)
    N_q: the nine basis derivatives at the point. With the gradient f' and Hessian f'' of the density by the derivatives:
      dF/dc_e   = sum w_t w_q N_q^T f'           d2F/dc_e2 = sum w_t w_q N_q^T f'' N_q.
-   Terms that are fed the same derivatives are added at the point, before the chain rule. Elements are computed in parallel,
+   All terms are added at the point, before the chain rule to the dofs; those fed derivatives by the coordinates of a chart are
+   turned into derivatives by (u, v) first. Elements are computed in parallel,
    a batch at a time, and added in their order, so that results do not depend on the number of threads. */
 #include "fair/problem.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { N = FS_N_DERIVATIVES, B = FS_BLOCK, N_PAIRS = N * (N + 1) / 2, MAX_DOFS = 6 * FS_MAX_CAP_VALENCE + 1 };
+enum { N = FS_N_DERIVATIVES, B = FS_BLOCK, N_PAIRS = N * (N + 1) / 2, MAX_DOFS = 240 };
 
 /* What one worker needs for one block of points. */
 typedef struct scratch {
   double x[N * 3 * B], f[B], df[N * 3 * B], ddf[N_PAIRS * 9 * B]; /* of one density */
-  double sum_df[N * 3 * B], sum_ddf[N_PAIRS * 9 * B];             /* of all terms on one table */
+  double sum_df[N * 3 * B], sum_ddf[N_PAIRS * 9 * B];             /* of all terms, by (u, v) */
+  double z[N * 3 * B];                                            /* derivatives by the coordinates of the chart */
   double c[MAX_DOFS * 3];
+  fs_tensor tensor;
 } scratch;
 
 size_t fs_assemble_scratch_size(void) { return sizeof(scratch); }
 
 static int32_t pair_number(int32_t i, int32_t j, int32_t n) { return i * n - i * (i - 1) / 2 + j - i; }
 
-/* Adds scale[B] times the derivatives of one density, of whatever order, to the sums. */
-static void add_density(const fs_density *density, fs_order order, const double *scale, scratch *s) {
+/* Moves the derivatives of a density of lower order to their places among the nine vectors. */
+static void widen(int32_t order_of_density, fs_order order, scratch *s) {
   static const int32_t n_of_order[4] = {0, 2, 5, 9};
-  int32_t n = n_of_order[density->order];
-  if (order >= FS_GRADIENT)
-    for (int32_t i = 0; i < 3 * n; i++)
-      for (int l = 0; l < B; l++) s->sum_df[i * B + l] += scale[l] * s->df[i * B + l];
+  int32_t n = n_of_order[order_of_density];
+  if (n == N) return;
+  memset(s->df + 3 * n * B, 0, (size_t)(3 * (N - n) * B) * sizeof(double));
   if (order < FS_HESSIAN) return;
-  for (int32_t i = 0; i < n; i++)
-    for (int32_t j = i; j < n; j++) {
-      const double *from = s->ddf + (size_t)pair_number(i, j, n) * 9 * B;
-      double *to = s->sum_ddf + (size_t)pair_number(i, j, N) * 9 * B;
-      for (int e = 0; e < 9; e++)
-        for (int l = 0; l < B; l++) to[e * B + l] += scale[l] * from[e * B + l];
+  for (int32_t i = N - 1; i >= 0; i--) /* from the end: pairs only move up */
+    for (int32_t j = N - 1; j >= i; j--) {
+      double *to = s->ddf + (size_t)pair_number(i, j, N) * 9 * B;
+      if (j < n)
+        memmove(to, s->ddf + (size_t)pair_number(i, j, n) * 9 * B, 9 * B * sizeof *to);
+      else
+        memset(to, 0, 9 * B * sizeof *to);
     }
 }
 
-/* One element by one table: all terms with on_chart as asked. */
-static void add_table(const fs_problem *p, const fs_basis_table *table, const fs_basis_jets *jets, bool has_chart,
-                      bool on_chart, fs_order order, scratch *s, fs_element_result *result) {
-  for (int32_t block = 0; block < table->n_blocks; block++) {
-    const double *by_dof = jets->by_dof + (size_t)block * N * table->n_dofs * B, *weight = jets->weight + block * B;
-    const double *by_point = jets->by_point + (size_t)block * B * N * table->n_padded;
-    bool is_first = true;
-    for (int32_t t = 0; t < p->n_terms; t++) {
-      const fs_density *density = p->term[t];
-      double scale[B];
-      if ((has_chart && !density->is_geometric) != on_chart) continue;
-      if (is_first) {
-        p->kernels->jets(table->n_dofs, by_dof, s->c, s->x);
-        if (order >= FS_GRADIENT) memset(s->sum_df, 0, sizeof s->sum_df);
-        if (order >= FS_HESSIAN) memset(s->sum_ddf, 0, sizeof s->sum_ddf);
-        is_first = false;
-      }
-      /* a term without weight is only measured */
-      fs_order wanted = p->weight[t] != 0 ? order : FS_VALUE;
-      density->evaluate(s->x, s->f, wanted >= FS_GRADIENT ? s->df : NULL, wanted >= FS_HESSIAN ? s->ddf : NULL);
-      for (int l = 0; l < B; l++) {
-        if (weight[l] != 0) result->integral[t] += weight[l] * s->f[l];
-        scale[l] = p->weight[t] * weight[l];
-      }
-      if (wanted > FS_VALUE) add_density(density, order, scale, s);
+/* sum (+)= scale[B] times the derivatives of one density; the first one is not added but stored. */
+static void add_density(const fs_kernels *kernels, const fs_density *density, fs_order order, const double *scale,
+                        bool is_first, scratch *s) {
+  uint64_t zero = density->order == 3 && !is_first ? density->zero_pairs : 0;
+  kernels->add_scaled(3 * N, scale, s->df, is_first, s->sum_df);
+  if (order < FS_HESSIAN) return;
+  for (int pair = 0; pair < N_PAIRS; pair++)
+    if (!(zero >> pair & 1))
+      kernels->add_scaled(9, scale, s->ddf + (size_t)pair * 9 * B, is_first, s->sum_ddf + (size_t)pair * 9 * B);
+}
+
+/* All terms at one block of points. */
+static void add_block(const fs_problem *p, const fs_basis_table *table, int32_t block, fs_order order, scratch *s,
+                      fs_element_result *result) {
+  const double *by_dof = table->by_dof + (size_t)block * N * table->n_dofs * B;
+  bool is_first = true;
+  p->kernels->jets(table->n_dofs, by_dof, s->c, s->x);
+  for (int32_t t = 0; t < p->n_terms; t++) {
+    const fs_density *density = p->term[t];
+    bool on_chart = table->inverse != NULL && !density->is_geometric;
+    const double *weight = (on_chart ? table->chart_weight : table->weight) + block * B;
+    const double *inverse = on_chart ? table->inverse + (size_t)block * N * N * B : NULL;
+    fs_order wanted = p->weight[t] != 0 ? order : FS_VALUE; /* a term without weight is only measured */
+    double scale[B];
+    if (on_chart) p->kernels->to_chart(inverse, s->x, s->z);
+    density->evaluate(on_chart ? s->z : s->x, s->f, wanted >= FS_GRADIENT ? s->df : NULL,
+                      wanted >= FS_HESSIAN ? s->ddf : NULL);
+    for (int l = 0; l < B; l++) {
+      if (weight[l] != 0) result->integral[t] += weight[l] * s->f[l];
+      scale[l] = p->weight[t] * weight[l];
     }
-    if (is_first) return; /* no term is on this table */
-    if (order >= FS_GRADIENT) p->kernels->gradient(table->n_dofs, by_dof, s->sum_df, result->gradient);
-    if (order >= FS_HESSIAN) p->kernels->hessian(table->n_padded, by_point, s->sum_ddf, result->hessian);
+    if (wanted == FS_VALUE) continue;
+    widen(density->order, wanted, s);
+    if (on_chart) {
+      if (is_first) memset(s->sum_df, 0, sizeof s->sum_df);
+      if (is_first && wanted >= FS_HESSIAN) memset(s->sum_ddf, 0, sizeof s->sum_ddf);
+      p->kernels->add_from_chart(inverse, scale, s->df, wanted >= FS_HESSIAN ? s->ddf : NULL, s->sum_df, s->sum_ddf);
+    } else {
+      add_density(p->kernels, density, wanted, scale, is_first, s);
+    }
+    is_first = false;
   }
+  if (order == FS_VALUE || is_first) return;
+  p->kernels->gradient(table->n_dofs, by_dof, s->sum_df, result->gradient);
+  if (order < FS_HESSIAN) return;
+  if (table->product != NULL)
+    p->kernels->hessian_tensor(&s->tensor, block, s->sum_ddf);
+  else
+    p->kernels->hessian(table->n_padded, table->by_point + (size_t)block * B * N * table->n_padded, s->sum_ddf,
+                        result->hessian);
+}
+
+static void add_element(const fs_problem *p, const fs_basis_table *table, fs_order order, scratch *s,
+                        fs_element_result *result) {
+  s->tensor.n_nodes = table->n_nodes;
+  s->tensor.product = table->product;
+  for (int32_t block = 0; block < table->n_blocks; block++) add_block(p, table, block, order, s, result);
+  if (order >= FS_HESSIAN && table->product != NULL) p->kernels->hessian_tensor_finish(&s->tensor, result->hessian);
 }
 
 typedef struct batch {
@@ -92,7 +123,6 @@ static fs_status run_batch(void *user, int32_t begin, int32_t end, int32_t worke
   for (int32_t i = begin; i < end; i++) {
     const fs_element *e = &p->space->element[b->first + i];
     const fs_basis_table *table = p->table[e->extraction];
-    bool has_chart = table->chart.weight != NULL;
     fs_element_result *result = &p->result[i];
     fs_order order = b->order > FS_VALUE && has_free_dof(p, e, table->n_dofs) ? b->order : FS_VALUE;
     for (int32_t d = 0; d < table->n_dofs; d++) {
@@ -103,10 +133,9 @@ static fs_status run_batch(void *user, int32_t begin, int32_t end, int32_t worke
     }
     memset(result->integral, 0, sizeof result->integral);
     if (order >= FS_GRADIENT) memset(result->gradient, 0, 3 * (size_t)table->n_dofs * sizeof(double));
-    if (order >= FS_HESSIAN)
+    if (order >= FS_HESSIAN && table->product == NULL)
       memset(result->hessian, 0, 6 * (size_t)table->n_padded * (size_t)table->n_padded * sizeof(double));
-    add_table(p, table, &table->parameter, has_chart, false, order, s, result);
-    if (has_chart) add_table(p, table, &table->chart, has_chart, true, order, s, result);
+    add_element(p, table, order, s, result);
   }
   return FS_OK;
 }

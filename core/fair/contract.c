@@ -20,6 +20,16 @@ void FS_KERNEL(fs_jets)(int32_t m, const double *table, const double *c, double 
     }
 }
 
+void FS_KERNEL(fs_add_scaled)(int32_t n, const double *scale, const double *from, bool is_first, double *to) {
+  for (int l = 0; l < FS_BLOCK; l += FS_LANES) {
+    lanes factor = lanes_load(scale + l);
+    for (int32_t i = l; i < n * FS_BLOCK; i += FS_BLOCK) {
+      lanes x = factor * lanes_load(from + i);
+      lanes_store(to + i, is_first ? x : lanes_load(to + i) + x);
+    }
+  }
+}
+
 static inline double sum_lanes(lanes x) {
   double sum = x[0];
   for (int l = 1; l < FS_LANES; l++) sum += x[l];
@@ -84,7 +94,7 @@ static inline void times_basis(int32_t m, double (*D)[N_DERIVATIVES], const doub
   }
 }
 
-enum { MAX_DOFS = 6 * 24 + 8, N_ROWS = FS_BLOCK * N_DERIVATIVES };
+enum { MAX_DOFS = 240, N_ROWS = FS_BLOCK * N_DERIVATIVES };
 
 void FS_KERNEL(fs_hessian)(int32_t m, const double *by_point, const double *ddf, double *h) {
   static const signed char pairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};

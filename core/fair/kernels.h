@@ -10,7 +10,20 @@
      jets      x[9][3][block] = sum over dofs of table[9][m][block] * c[m][3]
      gradient  g[m][3] += sum over derivatives and points of table[9][m][block] * df[9][3][block]
      hessian   h[6][m_padded][m_padded] += for the component pairs (a, b) = xx xy xz yy yz zz the sum over points and over
-               pairs of derivatives of N_i[m] ddf_(ia,jb) N_j[m']; by_point[block][9][m_padded] is the table transposed */
+               pairs of derivatives of N_i[m] ddf_(ia,jb) N_j[m']; by_point[block][9][m_padded] is the table transposed.
+               Where a == b only the part on and above the diagonal is meaningful
+     hessian_tensor, hessian_tensor_finish
+               the same for bicubic elements, block by block in order, then h[6][16][16] = the result
+     add_scaled  to[n][block] (+)= scale[block] * from[n][block]; the first time it is stored, not added
+     to_chart  z[9][3][block] = derivatives by the coordinates of the chart
+     add_from_chart  sum_df, sum_ddf += scale[block] * df, ddf by the chart, turned into derivatives by (u, v); ddf NULL: none */
+/* Work space of one element, zero before the first block. */
+typedef struct fs_tensor {
+  int32_t n_nodes;
+  const double *product; /* [4][4][n_nodes][4][4], as in fs_basis_table */
+  double row[16 * 9 * 16], sum[9 * 16 * 16];
+} fs_tensor;
+
 typedef void fs_density_kernel(const double *x, double *f, double *df, double *ddf);
 typedef struct fs_kernels {
   const char *name;
@@ -18,6 +31,12 @@ typedef struct fs_kernels {
   void (*jets)(int32_t m, const double *table, const double *c, double *x);
   void (*gradient)(int32_t m, const double *table, const double *df, double *g);
   void (*hessian)(int32_t m_padded, const double *by_point, const double *ddf, double *h);
+  void (*hessian_tensor)(fs_tensor *tensor, int32_t block, const double *ddf);
+  void (*hessian_tensor_finish)(fs_tensor *tensor, double *h);
+  void (*add_scaled)(int32_t n, const double *scale, const double *from, bool is_first, double *to);
+  void (*to_chart)(const double *inverse, const double *y, double *z);
+  void (*add_from_chart)(const double *inverse, const double *scale, const double *df, const double *ddf, double *sum_df,
+                         double *sum_ddf);
 } fs_kernels;
 
 /* The best set for this processor. */

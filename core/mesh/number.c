@@ -13,16 +13,13 @@ static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /* Parts of [+-] digits [. digits] [e [+-] digits]. */
 typedef struct decimal {
-  bool is_negative, is_exact; /* is_exact: mantissa and exponent hold the whole number */
-  uint64_t mantissa;
-  int64_t exponent; /* value = mantissa 10^exponent */
+  bool is_negative;
+  uint64_t mantissa; /* above 2^53 where it lacks digits */
+  int64_t exponent;  /* value = mantissa 10^exponent */
 } decimal;
 
 static void add_digit(decimal *d, char c, bool is_fraction) {
-  if (d->mantissa > (UINT64_MAX - 9) / 10) {
-    d->is_exact = false;
-    return;
-  }
+  if (d->mantissa > (UINT64_MAX - 9) / 10) return;
   d->mantissa = 10 * d->mantissa + (uint64_t)(c - '0');
   d->exponent -= is_fraction;
 }
@@ -45,7 +42,7 @@ static bool scan_decimal(fs_word word, decimal *d) {
   const char *p = word.at, *end = word.at + word.size;
   bool is_fraction = false;
   int64_t n_digits = 0;
-  *d = (decimal){.is_exact = true};
+  *d = (decimal){0};
   if (p < end && (*p == '-' || *p == '+')) d->is_negative = *p++ == '-';
   for (; p < end && (is_digit(*p) || (*p == '.' && !is_fraction)); p++) {
     if (*p == '.') {
@@ -61,8 +58,7 @@ static bool scan_decimal(fs_word word, decimal *d) {
 }
 
 static bool is_fast(const decimal *d) {
-  return FLT_EVAL_METHOD == 0 && d->is_exact && d->mantissa <= UINT64_C(1) << 53 && d->exponent >= -22 &&
-         d->exponent <= 22;
+  return FLT_EVAL_METHOD == 0 && d->mantissa <= UINT64_C(1) << 53 && d->exponent >= -22 && d->exponent <= 22;
 }
 
 static double fast_value(const decimal *d) {

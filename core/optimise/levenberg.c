@@ -197,10 +197,13 @@ fs_status fs_minimise(fs_context *ctx, const fs_objective *o, const fs_minimise_
       r.stop = FS_MINIMISE_CANCELLED;
       break;
     }
-    bool is_small = predicted <= options->decrease_tolerance * fabs(t.f);
-    if (is_small && r.gradient <= options->gradient_tolerance * gradient_start) {
-      r.stop = FS_MINIMISE_GRADIENT;
-      break;
+    bool is_flat = r.gradient <= options->gradient_tolerance * gradient_start;
+    if (is_flat) { /* the decrease that is left, by the factor that is there: is another Hessian worth its price? */
+      FS_TRY(fs_solver_solve(ctx, t.solver, t.g_trial, t.s));
+      if (0.5 * dot(t.g_trial, t.s, n) <= options->decrease_tolerance * fabs(r.value)) {
+        r.stop = FS_MINIMISE_GRADIENT;
+        break;
+      }
     }
     if (predicted <= 1e-13 * fabs(t.f) && t.f - r.value < 1e-11 * fabs(t.f)) {
       r.stop = FS_MINIMISE_DECREASE; /* rounding */

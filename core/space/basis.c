@@ -67,8 +67,10 @@ static void chain_matrix(const double *d, double T[N][N]) {
   }
 }
 
-/* x[N][n] = T^-1 x by Gaussian elimination with row exchanges; false when T is singular. */
-static bool solve_chain(double T[N][N], int32_t n, double *x) {
+/* inverse = T^-1 by Gauss-Jordan elimination with row exchanges; false when T is singular. */
+static bool invert_chain(double T[N][N], double inverse[N][N]) {
+  for (int r = 0; r < N; r++)
+    for (int c = 0; c < N; c++) inverse[r][c] = r == c;
   for (int c = 0; c < N; c++) {
     int best = c;
     for (int r = c + 1; r < N; r++)
@@ -78,68 +80,78 @@ static bool solve_chain(double T[N][N], int32_t n, double *x) {
       double swap = T[c][k];
       T[c][k] = T[best][k];
       T[best][k] = swap;
-    }
-    for (int32_t k = 0; k < n && best != c; k++) {
-      double swap = x[(size_t)c * n + k];
-      x[(size_t)c * n + k] = x[(size_t)best * n + k];
-      x[(size_t)best * n + k] = swap;
+      swap = inverse[c][k];
+      inverse[c][k] = inverse[best][k];
+      inverse[best][k] = swap;
     }
     for (int r = 0; r < N; r++) {
       double factor = T[r][c] / T[c][c];
       if (r == c || factor == 0) continue;
-      for (int k = c; k < N; k++) T[r][k] -= factor * T[c][k];
-      for (int32_t k = 0; k < n; k++) x[(size_t)r * n + k] -= factor * x[(size_t)c * n + k];
+      for (int k = 0; k < N; k++) {
+        T[r][k] -= factor * T[c][k];
+        inverse[r][k] -= factor * inverse[c][k];
+      }
     }
   }
   for (int r = 0; r < N; r++)
-    for (int32_t k = 0; k < n; k++) x[(size_t)r * n + k] /= T[r][r];
+    for (int k = 0; k < N; k++) inverse[r][k] /= T[r][r];
   return true;
 }
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-static fs_status jets_allocate(fs_context *ctx, const fs_basis_table *table, fs_basis_jets *jets) {
-  fs_status status = FS_OK;
-  size_t n_points = (size_t)table->n_blocks * FS_POINT_BLOCK;
-  FS_ALLOC(ctx, jets->weight, n_points);
-  FS_ALLOC(ctx, jets->by_dof, n_points * N * (size_t)table->n_dofs);
-  FS_ALLOC(ctx, jets->by_point, n_points * N * (size_t)table->n_padded);
-done:
-  return status;
-}
-
-static void jets_free(fs_context *ctx, fs_basis_jets *jets) {
-  fs_release(ctx, jets->weight);
-  fs_release(ctx, jets->by_dof);
-  fs_release(ctx, jets->by_point);
-}
-
-/* Stores jet[9][n_dofs] of one point in both orders. */
-static void jets_store(const fs_basis_table *table, fs_basis_jets *jets, int32_t point, double weight, const double *jet) {
-  int32_t n = table->n_dofs, lane = point % FS_POINT_BLOCK;
-  double *by_dof = jets->by_dof + (size_t)(point / FS_POINT_BLOCK) * N * n * FS_POINT_BLOCK;
-  double *by_point = jets->by_point + (size_t)point * N * table->n_padded;
-  jets->weight[point] = weight;
-  for (int d = 0; d < N; d++)
-    for (int32_t k = 0; k < n; k++) {
-      by_dof[((size_t)d * n + k) * FS_POINT_BLOCK + lane] = jet[(size_t)d * n + k];
-      by_point[(size_t)d * table->n_padded + k] = jet[(size_t)d * n + k];
-    }
+/* product[o][p][node][i][k], for an extraction that is the product of `axis` (4 x 4) with itself. */
+static void fill_products(const double *segment, int32_t n_nodes, const axis *node, double *product) {
+  for (int32_t q = 0; q < n_nodes; q++) {
+    double value[4][4] = {{0}}; /* [order][function] */
+    for (int o = 0; o < 4; o++)
+      for (int i = 0; i < 4; i++)
+        for (int b = 0; b < 4; b++) value[o][i] += node[q].value[o][b] * segment[4 * b + i];
+    for (int o = 0; o < 4; o++)
+      for (int p = 0; p < 4; p++)
+        for (int i = 0; i < 4; i++)
+          for (int k = 0; k < 4; k++) product[(((4 * o + p) * n_nodes + q) * 4 + i) * 4 + k] = value[o][i] * value[p][k];
+  }
 }
 
 /* One point. Points beyond the last repeat it with weight 0, so that every lane sees a regular surface. */
 static fs_status add_point(fs_context *ctx, fs_basis_table *table, const fs_extraction *x, int32_t point, const axis *u,
                            const axis *v, double weight, double *jet) {
-  double T[N][N], d[2 * N];
-  tensor_jet(x, x->E, x->n_dofs, u, v, jet);
-  jets_store(table, &table->parameter, point, weight, jet);
+  int32_t n = x->n_dofs, block = point / FS_POINT_BLOCK, lane = point % FS_POINT_BLOCK;
+  double T[N][N], d[2 * N], inverse[N][N];
+  tensor_jet(x, x->E, n, u, v, jet);
+  table->weight[point] = weight;
+  for (int e = 0; e < N; e++)
+    for (int32_t k = 0; k < n; k++) {
+      table->by_dof[(((size_t)block * N + e) * n + k) * FS_POINT_BLOCK + lane] = jet[(size_t)e * n + k];
+      if (table->by_point != NULL) table->by_point[((size_t)point * N + e) * table->n_padded + k] = jet[(size_t)e * n + k];
+    }
   if (x->chart == NULL) return FS_OK;
   tensor_jet(x, x->chart, 2, u, v, d);
   chain_matrix(d, T);
-  if (!solve_chain(T, x->n_dofs, jet))
+  if (!invert_chain(T, inverse))
     return fs_fail(ctx, FS_ERR_NUMERIC, "the chart of a cap of valence %d is singular", x->valence);
-  jets_store(table, &table->chart, point, weight * fabs(d[0] * d[3] - d[1] * d[2]), jet);
+  table->chart_weight[point] = weight * fabs(d[0] * d[3] - d[1] * d[2]);
+  for (int r = 0; r < N; r++)
+    for (int c = 0; c < N; c++) table->inverse[(((size_t)block * N + r) * N + c) * FS_POINT_BLOCK + lane] = inverse[r][c];
   return FS_OK;
+}
+
+static fs_status allocate_arrays(fs_context *ctx, const fs_extraction *x, fs_basis_table *table) {
+  fs_status status = FS_OK;
+  size_t n_points = (size_t)table->n_blocks * FS_POINT_BLOCK;
+  FS_ALLOC(ctx, table->weight, n_points);
+  FS_ALLOC(ctx, table->by_dof, n_points * N * (size_t)table->n_dofs);
+  if (x->segment != NULL)
+    FS_ALLOC(ctx, table->product, 256 * (size_t)table->n_nodes);
+  else
+    FS_ALLOC(ctx, table->by_point, n_points * N * (size_t)table->n_padded);
+  if (x->chart != NULL) {
+    FS_ALLOC(ctx, table->chart_weight, n_points);
+    FS_ALLOC(ctx, table->inverse, n_points * N * N);
+  }
+done:
+  return status;
 }
 
 fs_status fs_basis_create(fs_context *ctx, const fs_extraction *x, int32_t n_nodes, fs_basis_table **result) {
@@ -151,11 +163,11 @@ fs_status fs_basis_create(fs_context *ctx, const fs_extraction *x, int32_t n_nod
     return fs_fail(ctx, FS_ERR_ARGUMENT, "%d quadrature nodes on degree (%d, %d): 1 to %d nodes are possible", n_nodes,
                    x->degree_u, x->degree_v, MAX_NODES);
   FS_ALLOC(ctx, table, 1);
+  table->n_nodes = n_nodes;
   table->n_dofs = x->n_dofs;
   table->n_padded = (x->n_dofs + 7) / 8 * 8;
   table->n_blocks = (n_nodes * n_nodes + FS_POINT_BLOCK - 1) / FS_POINT_BLOCK;
-  FS_TRY(jets_allocate(ctx, table, &table->parameter));
-  if (x->chart != NULL) FS_TRY(jets_allocate(ctx, table, &table->chart));
+  FS_TRY(allocate_arrays(ctx, x, table));
   FS_ALLOC(ctx, u, n_nodes);
   FS_ALLOC(ctx, v, n_nodes);
   FS_ALLOC(ctx, jet, (size_t)N * (size_t)x->n_dofs);
@@ -170,6 +182,7 @@ fs_status fs_basis_create(fs_context *ctx, const fs_extraction *x, int32_t n_nod
     double w = is_padding ? 0.0 : weight[q % n_nodes] * weight[q / n_nodes];
     FS_TRY(add_point(ctx, table, x, point, &u[q % n_nodes], &v[q / n_nodes], w, jet));
   }
+  if (x->segment != NULL) fill_products(x->segment, n_nodes, u, table->product);
   *result = table;
   table = NULL;
 done:
@@ -182,7 +195,11 @@ done:
 
 void fs_basis_free(fs_context *ctx, fs_basis_table *table) {
   if (table == NULL) return;
-  jets_free(ctx, &table->parameter);
-  jets_free(ctx, &table->chart);
+  fs_release(ctx, table->weight);
+  fs_release(ctx, table->by_dof);
+  fs_release(ctx, table->by_point);
+  fs_release(ctx, table->chart_weight);
+  fs_release(ctx, table->inverse);
+  fs_release(ctx, table->product);
   fs_release(ctx, table);
 }

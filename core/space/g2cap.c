@@ -50,8 +50,8 @@ fs_status fs_g2cap_create(fs_context *ctx, int32_t valence, const fs_g2cap_optio
   fs_g2cap_domain_set(valence, eigenvalue, cap->net, &domain);
   FS_TRY(fs_g2cap_junction_solve(ctx, &domain, &junction));
   FS_TRY(fs_g2cap_local_patches(ctx, &domain, &junction, local, cap->chart));
-  FS_TRY(fs_g2cap_ritz_create(ctx, &domain, options != NULL ? options : &defaults, local, cap->chart, &ritz));
-  FS_TRY(fs_g2cap_sector_matrix(ctx, ritz, 0, cap->matrix));
+  FS_TRY(fs_g2cap_ritz_create(ctx, valence, options != NULL ? options : &defaults, local, cap->chart, &ritz));
+  fs_g2cap_matrix(ritz, cap->matrix);
   for (int32_t i = 0; i < cap->n_vertices; i++) cap->trace_energy += ritz->energy[i * (cap->n_vertices + 1)];
   FS_TRY(scale_chart(ctx, cap->chart));
   *out = cap;

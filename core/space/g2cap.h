@@ -8,9 +8,9 @@
 
 enum { FS_G2CAP_MIN_VALENCE = 3, FS_G2CAP_MAX_VALENCE = 24 };
 
-/* The net of a vertex: V_i(a, b) is reached from it by a edges along spoke i and b edges parallel to spoke i + 1. Spokes
-   are numbered anticlockwise. Its number is 0 for the centre and 1 + 6 i + 2 b + (a - 1) for a = 1, 2 and b = 0, 1, 2. Sector s sees
-   the net turned: centre, block s, block s + 1, .., block s - 1 of six vertices. */
+/* The net of a vertex: V_i(a, b) is reached from it by a edges along spoke i and b edges parallel to spoke i + 1;
+   spokes are numbered anticlockwise. Its number is 0 for the centre and 1 + 6 i + 2 b + (a - 1) for a = 1, 2 and
+   b = 0, 1, 2. Sector s sees the net turned: centre, block s, block s + 1, .., block s - 1 of six vertices. */
 typedef struct fs_g2cap {
   int32_t valence, n_vertices; /* n_vertices = 6 valence + 1 */
   double *matrix; /* [100][n_vertices]: Bezier points of sector 0; point (i, j), i along u, is row i + 10 j.

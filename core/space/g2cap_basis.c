@@ -2,8 +2,8 @@
 /* Single role: the functions of which a cap is made. [Kiciak 2013; docs/g2caps.md section 7]
 
    In one sector a function is determined by 30 numbers: its values at 15 vertices, and the polynomial z(x,y) of degree
-   4 that it follows at the centre, as 15 coefficients in the frame of the sector (x along its spoke). z gives the centre
-   jets of both spokes: with z_d the part of degree d and z_d(x e + y n) = sum_n a_n x^(d-n) y^n,
+   4 that it follows at the centre, as 15 coefficients in the frame of the sector (x along its spoke). z gives the
+   centre jets of both spokes: with z_d the part of degree d and z_d(x e + y n) = sum_n a_n x^(d-n) y^n,
 
      d^(d-n)_u d^n_s r = (d-n)! n! a_n,  n <= 2
 

@@ -8,7 +8,7 @@
 
    W comes from the chain rule f_abc = (third derivatives of f by x, y) + (second) + (first), solved from the highest
    order down. An operator of order m is a homogeneous polynomial of degree m in the symbols d/dx, d/dy: a change to
-   d/du, d/dv is a linear substitution.                                                                                       */
+   d/du, d/dv is a linear substitution. */
 #include "space/g2cap_parts.h"
 #include "math/bernstein.h"
 #include "math/dense.h"

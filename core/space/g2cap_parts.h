@@ -10,6 +10,7 @@
      L          local                 [100][30]        patches of the functions given by 15 vertices and 15 monomials
      P_i        fan                   [k][15][n']      functions phi: their monomial coefficients in sector i
      S          coefficient           [n'][6k+1]       Ritz coefficients: P = psi + phi S
+     P_i S      centre                [15][6k+1]       polynomial at the centre in terms of the net, one for all sectors
 
    Bezier points of patches: point (i, j), i along u, is row i + 10 j.                                               */
 #ifndef FS_SPACE_G2CAP_PARTS_H
@@ -114,17 +115,17 @@ fs_status fs_g2cap_area(fs_context *ctx, const double *chart, double *area);
 /* ---- g2cap_ritz.c: the minimum of the energy ---- */
 
 typedef struct fs_g2cap_ritz {
-  int32_t valence, n_vertices, n_functions;
-  double *local;       /* [100][30] with the best inner functions added */
-  double *fan;         /* [k][15][n'] */
-  double *coefficient; /* [n'][6k+1] */
-  double *energy;      /* [6k+1][6k+1], the matrix K */
+  int32_t valence, n_vertices;
+  double *local;    /* [100][30] with the best inner functions added */
+  double *centre;   /* [15][6k+1]: the polynomial that sector 0 follows at the centre */
+  double *energy;   /* [6k+1][6k+1], the matrix K */
+  double asymmetry; /* what differences between the sectors did to Bezier points, before the mean was taken */
 } fs_g2cap_ritz;
-fs_status fs_g2cap_ritz_create(fs_context *ctx, const fs_g2cap_domain *domain, const fs_g2cap_options *options,
-                               const double *local, const double *chart, fs_g2cap_ritz **ritz);
+fs_status fs_g2cap_ritz_create(fs_context *ctx, int32_t valence, const fs_g2cap_options *options, const double *local,
+                               const double *chart, fs_g2cap_ritz **ritz);
 void fs_g2cap_ritz_free(fs_context *ctx, fs_g2cap_ritz *ritz);
 
-/* matrix [100][6k+1]: Bezier points of any sector from the net in its original order. */
-fs_status fs_g2cap_sector_matrix(fs_context *ctx, const fs_g2cap_ritz *ritz, int32_t sector, double *matrix);
+/* matrix [100][6k+1]: Bezier points of sector 0 from the net. */
+void fs_g2cap_matrix(const fs_g2cap_ritz *ritz, double *matrix);
 
 #endif

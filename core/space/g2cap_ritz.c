@@ -14,11 +14,14 @@
 
    and what remains is summed over the sectors to A = <phi, phi>, B = <phi, psi>, C = <psi, psi>:
 
-     A S = -B,   P = psi + phi S,   K = C + B^T S = C - B^T A^-1 B                                                 */
+     A S = -B,   P = psi + phi S,   K = C + B^T S = C - B^T A^-1 B                                                */
 #include "space/g2cap_parts.h"
 #include "math/dense.h"
 
+#include <math.h>
 #include <string.h>
+
+static const double TOLERANCE = 1e-8; /* of the Bezier points, between sectors */
 
 enum {
   OUTER = FS_G2CAP_OUTER,
@@ -53,75 +56,132 @@ static void number_vertices(int32_t valence, int32_t sector, int32_t number[VERT
     for (int32_t a = b < 0 ? 0 : -1; a <= 2; a++) number[fs_g2cap_grid(a, b)] = fs_g2cap_vertex(valence, sector, a, b);
 }
 
-/* The sums A [n'][n'], B [n'][6k+1], C [6k+1][6k+1]; product is room for [n'][15]. */
-static void add_sector(const fs_g2cap_ritz *ritz, int32_t sector, const double *form, double *product, double *A,
-                       double *B, double *C) {
-  int32_t n = ritz->n_functions, n_vertices = ritz->n_vertices, number[VERTICES];
-  const double *P = ritz->fan + sector * MONOMIALS * n, *form_mv = form + VERTICES * LOCAL,
-               *form_mm = form_mv + VERTICES;
-  number_vertices(ritz->valence, sector, number);
+/* What the sum over the sectors needs and leaves. */
+typedef struct ritz_system {
+  int32_t k, n_vertices, n_functions;
+  double *fan;         /* [k][15][n'] = P_i */
+  double *A;           /* [n'][n'] */
+  double *coefficient; /* [n'][6k+1]: B, then S */
+  double *energy;      /* [6k+1][6k+1]: C, then K; belongs to the result */
+  double *product;     /* [n'][15] or [15][6k+1] */
+} ritz_system;
+
+static void add_sector(const ritz_system *system, int32_t sector, const double *form) {
+  int32_t n = system->n_functions, width = system->n_vertices, number[VERTICES];
+  const double *P = system->fan + sector * MONOMIALS * n, *form_mv = form + VERTICES * LOCAL;
+  const double *form_mm = form_mv + VERTICES;
+  double *product = system->product;
+  number_vertices(system->k, sector, number);
   for (int32_t v = 0; v < VERTICES; v++)
-    for (int32_t w = 0; w < VERTICES; w++) C[number[v] * n_vertices + number[w]] += form[v * LOCAL + w];
+    for (int32_t w = 0; w < VERTICES; w++) system->energy[number[v] * width + number[w]] += form[v * LOCAL + w];
 
   memset(product, 0, (size_t)(n * VERTICES) * sizeof *product); /* P^T form_mv */
   fs_dense_add_product_transposed(n, MONOMIALS, VERTICES, 1, P, n, form_mv, LOCAL, product, VERTICES);
   for (int32_t l = 0; l < n; l++)
-    for (int32_t v = 0; v < VERTICES; v++) B[l * n_vertices + number[v]] += product[l * VERTICES + v];
+    for (int32_t v = 0; v < VERTICES; v++) system->coefficient[l * width + number[v]] += product[l * VERTICES + v];
 
   memset(product, 0, (size_t)(n * MONOMIALS) * sizeof *product); /* P^T form_mm */
   fs_dense_add_product_transposed(n, MONOMIALS, MONOMIALS, 1, P, n, form_mm, LOCAL, product, MONOMIALS);
-  fs_dense_add_product(n, MONOMIALS, n, 1, product, MONOMIALS, P, n, A, n);
+  fs_dense_add_product(n, MONOMIALS, n, 1, product, MONOMIALS, P, n, system->A, n);
 }
 
-/* Solves A S = -B; K = C - B^T A^-1 B is left in ritz->energy, which holds C before. */
-static fs_status solve_coefficients(fs_context *ctx, fs_g2cap_ritz *ritz, double *A) {
-  int32_t n = ritz->n_functions, width = ritz->n_vertices;
-  double *S = ritz->coefficient;
-  fs_status status = fs_dense_cholesky(ctx, n, A, n);
+/* Solves A S = -B; K = C - B^T A^-1 B. */
+static fs_status solve_coefficients(fs_context *ctx, ritz_system *system) {
+  int32_t n = system->n_functions, width = system->n_vertices;
+  double *S = system->coefficient;
+  fs_status status = fs_dense_cholesky(ctx, n, system->A, n);
   if (status != FS_OK) return status;
-  fs_dense_solve_transposed(n, A, n, width, S, width);
-  fs_dense_add_gram(n, width, S, width, -1, ritz->energy, width);
-  fs_dense_mirror(width, ritz->energy, width);
-  fs_dense_solve_upper(n, A, n, width, S, width);
+  fs_dense_solve_transposed(n, system->A, n, width, S, width);
+  fs_dense_add_gram(n, width, S, width, -1, system->energy, width);
+  fs_dense_mirror(width, system->energy, width);
+  fs_dense_solve_upper(n, system->A, n, width, S, width);
   for (int32_t i = 0; i < n * width; i++) S[i] = -S[i];
   return FS_OK;
 }
 
-static fs_status minimise(fs_context *ctx, fs_g2cap_ritz *ritz, const double *form) {
+/* system->product [15][6k+1] = P_i S: the polynomial at the centre of sector i, for the net as sector 0 sees it. */
+static void follow_centre(const ritz_system *system, int32_t sector) {
+  int32_t n = system->n_functions, width = system->n_vertices;
+  memset(system->product, 0, (size_t)(MONOMIALS * width) * sizeof *system->product);
+  fs_dense_add_product(MONOMIALS, n, width, 1, system->fan + sector * MONOMIALS * n, n, system->coefficient, width,
+                       system->product, width);
+}
+
+/* Column of the vertex that sector s sees as sector 0 sees the vertex of the given column. */
+static int32_t turn_column(int32_t k, int32_t sector, int32_t column) {
+  return column == 0 ? 0 : 1 + (column - 1 + 6 * sector) % (6 * k);
+}
+
+/* What one unit of each monomial moves a Bezier point by, at most. */
+static void weigh_monomials(const double *local, double weight[MONOMIALS]) {
+  for (int32_t m = 0; m < MONOMIALS; m++) {
+    weight[m] = 0;
+    for (int32_t point = 0; point < POINTS; point++)
+      weight[m] = fmax(weight[m], fabs(local[point * OUTER + VERTICES + m]));
+  }
+}
+
+/* centre [15][6k+1] = mean of P_i S over the sectors, each turned back. Without rounding all are the same. Their jets
+   of a spoke agree between neighbours in spite of rounding in S, and so do those of the mean with its own turned copy:
+   the sectors meet to the last digits even where A is ill-conditioned. */
+static fs_status average_sectors(fs_context *ctx, const ritz_system *system, fs_g2cap_ritz *ritz) {
+  int32_t k = system->k, width = system->n_vertices;
+  double weight[MONOMIALS];
+  weigh_monomials(ritz->local, weight);
+  for (int32_t sector = 0; sector < k; sector++) {
+    follow_centre(system, sector);
+    for (int32_t m = 0; m < MONOMIALS; m++)
+      for (int32_t j = 0; j < width; j++)
+        ritz->centre[m * width + j] += system->product[m * width + turn_column(k, sector, j)] / k;
+  }
+  for (int32_t sector = 0; sector < k; sector++) {
+    follow_centre(system, sector);
+    for (int32_t m = 0; m < MONOMIALS; m++)
+      for (int32_t j = 0; j < width; j++) {
+        double difference = ritz->centre[m * width + j] - system->product[m * width + turn_column(k, sector, j)];
+        ritz->asymmetry = fmax(ritz->asymmetry, weight[m] * fabs(difference));
+      }
+  }
+  if (ritz->asymmetry < TOLERANCE) return FS_OK;
+  return fs_fail(ctx, FS_ERR_NUMERIC, "cap of valence %d: its sectors differ by %g", k, ritz->asymmetry);
+}
+
+static fs_status minimise(fs_context *ctx, const double *form, fs_g2cap_ritz *ritz) {
   fs_status status = FS_OK;
-  int32_t n = ritz->n_functions;
-  double *A = NULL, *product = NULL;
-  FS_ALLOC(ctx, A, n * n);
-  FS_ALLOC(ctx, product, n * VERTICES);
-  for (int32_t sector = 0; sector < ritz->valence; sector++)
-    add_sector(ritz, sector, form, product, A, ritz->coefficient, ritz->energy);
-  FS_TRY(solve_coefficients(ctx, ritz, A));
+  int32_t k = ritz->valence, n = fs_g2cap_n_functions(k), width = ritz->n_vertices;
+  ritz_system system = {.k = k, .n_vertices = width, .n_functions = n, .energy = ritz->energy};
+  FS_ALLOC(ctx, system.fan, k * MONOMIALS * n);
+  FS_ALLOC(ctx, system.A, n * n);
+  FS_ALLOC(ctx, system.coefficient, n * width);
+  FS_ALLOC(ctx, system.product, MONOMIALS * width); /* n' <= 6 k + 1 */
+  FS_TRY(fs_g2cap_fan(ctx, k, system.fan));
+  for (int32_t sector = 0; sector < k; sector++) add_sector(&system, sector, form);
+  FS_TRY(solve_coefficients(ctx, &system));
+  FS_TRY(average_sectors(ctx, &system, ritz));
 done:
-  fs_release(ctx, A);
-  fs_release(ctx, product);
+  fs_release(ctx, system.fan);
+  fs_release(ctx, system.A);
+  fs_release(ctx, system.coefficient);
+  fs_release(ctx, system.product);
   return status;
 }
 
-fs_status fs_g2cap_ritz_create(fs_context *ctx, const fs_g2cap_domain *domain, const fs_g2cap_options *options,
-                               const double *local, const double *chart, fs_g2cap_ritz **out) {
+fs_status fs_g2cap_ritz_create(fs_context *ctx, int32_t valence, const fs_g2cap_options *options, const double *local,
+                               const double *chart, fs_g2cap_ritz **out) {
   fs_status status = FS_OK;
   fs_g2cap_ritz *ritz = NULL;
   double *form = NULL;
-  int32_t k = domain->valence;
   FS_ALLOC(ctx, ritz, 1);
-  ritz->valence = k;
-  ritz->n_vertices = 6 * k + 1;
-  ritz->n_functions = fs_g2cap_n_functions(k);
+  ritz->valence = valence;
+  ritz->n_vertices = 6 * valence + 1;
   FS_ALLOC(ctx, ritz->local, POINTS * OUTER);
-  FS_ALLOC(ctx, ritz->fan, k * MONOMIALS * ritz->n_functions);
-  FS_ALLOC(ctx, ritz->coefficient, ritz->n_functions * ritz->n_vertices);
+  FS_ALLOC(ctx, ritz->centre, MONOMIALS * ritz->n_vertices);
   FS_ALLOC(ctx, ritz->energy, ritz->n_vertices * ritz->n_vertices);
   FS_ALLOC(ctx, form, LOCAL * LOCAL);
   memcpy(ritz->local, local, POINTS * OUTER * sizeof *local);
   FS_TRY(fs_g2cap_form_matrix(ctx, options, local, chart, form));
   if (!options->basic) FS_TRY(eliminate_inner(ctx, form, ritz->local));
-  FS_TRY(fs_g2cap_fan(ctx, k, ritz->fan));
-  FS_TRY(minimise(ctx, ritz, form));
+  FS_TRY(minimise(ctx, form, ritz));
   *out = ritz;
   ritz = NULL;
 done:
@@ -133,25 +193,16 @@ done:
 void fs_g2cap_ritz_free(fs_context *ctx, fs_g2cap_ritz *ritz) {
   if (ritz == NULL) return;
   fs_release(ctx, ritz->local);
-  fs_release(ctx, ritz->fan);
-  fs_release(ctx, ritz->coefficient);
+  fs_release(ctx, ritz->centre);
   fs_release(ctx, ritz->energy);
   fs_release(ctx, ritz);
 }
 
-fs_status fs_g2cap_sector_matrix(fs_context *ctx, const fs_g2cap_ritz *ritz, int32_t sector, double *matrix) {
-  fs_status status = FS_OK;
-  int32_t n = ritz->n_functions, width = ritz->n_vertices, number[VERTICES];
-  double *phi = NULL; /* [100][n'] Bezier points of the functions phi */
-  FS_ALLOC(ctx, phi, POINTS * n);
+void fs_g2cap_matrix(const fs_g2cap_ritz *ritz, double *matrix) {
+  int32_t width = ritz->n_vertices, number[VERTICES];
   memset(matrix, 0, (size_t)(POINTS * width) * sizeof *matrix);
-  number_vertices(ritz->valence, sector, number);
+  number_vertices(ritz->valence, 0, number);
   for (int32_t point = 0; point < POINTS; point++)
     for (int32_t v = 0; v < VERTICES; v++) matrix[point * width + number[v]] += ritz->local[point * OUTER + v];
-  fs_dense_add_product(POINTS, MONOMIALS, n, 1, ritz->local + VERTICES, OUTER, ritz->fan + sector * MONOMIALS * n, n,
-                       phi, n);
-  fs_dense_add_product(POINTS, n, width, 1, phi, n, ritz->coefficient, width, matrix, width);
-done:
-  fs_release(ctx, phi);
-  return status;
+  fs_dense_add_product(POINTS, MONOMIALS, width, 1, ritz->local + VERTICES, OUTER, ritz->centre, width, matrix, width);
 }

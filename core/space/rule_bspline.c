@@ -43,21 +43,29 @@ static void collect_net(const fs_mesh *mesh, int32_t h, int32_t *net) {
 
 static fs_status build(fs_context *ctx, const fs_mesh *mesh, int32_t rule, const int32_t *owner,
                        fs_space_builder *builder) {
-  static const double S[4][4] = {{1, 4, 1, 0}, {0, 4, 2, 0}, {0, 2, 4, 0}, {0, 1, 4, 1}};
+  static const double sixfold[16] = {1, 4, 1, 0, 0, 4, 2, 0, 0, 2, 4, 0, 0, 1, 4, 1};
   fs_status status = FS_OK;
+  double S[16];
   double E[N_DOFS * N_DOFS];
   int32_t index = FS_NONE;
   (void)ctx;
+  for (int i = 0; i < 16; i++) S[i] = sixfold[i] / 6.0;
   for (int p = 0; p < 4; p++)
     for (int q = 0; q < 4; q++)
       for (int x = 0; x < 4; x++)
-        for (int y = 0; y < 4; y++) E[(p + 4 * q) * N_DOFS + x + 4 * y] = S[p][x] * S[q][y] / 36.0;
+        for (int y = 0; y < 4; y++) E[(p + 4 * q) * N_DOFS + x + 4 * y] = S[4 * p + x] * S[4 * q + y];
   for (int32_t f = 0; f < mesh->n_faces; f++) {
     int32_t net[N_DOFS];
     if (owner[f] != rule) continue;
     if (index == FS_NONE)
-      FS_TRY(fs_builder_add_extraction(
-          builder, &(fs_extraction){.degree_u = 3, .degree_v = 3, .n_dofs = N_DOFS, .E = E, .valence = 4}, &index));
+      FS_TRY(fs_builder_add_extraction(builder,
+                                       &(fs_extraction){.degree_u = 3,
+                                                        .degree_v = 3,
+                                                        .n_dofs = N_DOFS,
+                                                        .E = E,
+                                                        .segment = S,
+                                                        .valence = 4},
+                                       &index));
     collect_net(mesh, mesh->face_start[f], net);
     FS_TRY(fs_builder_add_element(builder, mesh->face_start[f], index, net));
   }

@@ -39,9 +39,10 @@ fs_status fs_builder_add_extraction(fs_space_builder *b, const fs_extraction *ex
   *index = space->n_extractions++;
   if (!extraction->is_borrowed) {
     size_t n = (size_t)(extraction->degree_u + 1) * (size_t)(extraction->degree_v + 1);
-    added->E = added->chart = NULL;
+    added->E = added->chart = added->segment = NULL;
     FS_TRY(copy_doubles(b->ctx, &added->E, extraction->E, n * (size_t)extraction->n_dofs));
     if (extraction->chart != NULL) FS_TRY(copy_doubles(b->ctx, &added->chart, extraction->chart, 2 * n));
+    if (extraction->segment != NULL) FS_TRY(copy_doubles(b->ctx, &added->segment, extraction->segment, 16));
   }
 done:
   return status;
@@ -153,6 +154,7 @@ void fs_space_free(fs_context *ctx, fs_space *space) {
     if (!space->extraction[i].is_borrowed) {
       fs_release(ctx, space->extraction[i].E);
       fs_release(ctx, space->extraction[i].chart);
+      fs_release(ctx, space->extraction[i].segment);
     }
   fs_release(ctx, space->extraction);
   fs_release(ctx, space->element);

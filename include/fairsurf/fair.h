@@ -23,6 +23,7 @@ typedef struct fs_density {
   bool is_geometric; /* unchanged when the surface is reparametrised: fed derivatives by (u, v) and integrated over the
                         unit squares; else fed derivatives by the coordinates of the element's chart, integrated there */
   bool is_quadratic; /* the second derivatives are constant: one Newton step reaches the minimum */
+  uint64_t zero_pairs; /* for order 3, bit (i, j): the second derivatives of that pair always vanish and need not be added */
   void (*evaluate)(const double *x, double *f, double *df, double *ddf);
 } fs_density;
 FS_API extern const fs_density fs_density_curvature_variation; /* |grad_M H|^2 sqrt(det G) */
@@ -115,6 +116,10 @@ FS_API fs_status fs_fair_energy(fs_context *ctx, const fs_space *space, const fs
 
 /* Name of the BLAS library that the solver runs on, for example a path; and whether it is the slow reference one. */
 FS_API const char *fs_blas_name(bool *is_reference);
+
+/* Number of threads of that BLAS, where it can be told (OpenBLAS); a setting of the whole process. One thread is best below
+   about 5 000 unknown points, and makes results the same on every run. */
+FS_API void fs_blas_set_threads(int32_t n_threads);
 
 #ifdef __cplusplus
 }

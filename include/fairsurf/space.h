@@ -25,6 +25,7 @@ typedef struct fs_extraction {
   double *E; /* [(degree_u + 1)(degree_v + 1)][n_dofs]; Bezier point (i, j), i along u, is row i + (degree_u + 1) j */
   double *chart;    /* NULL: the unit square is the chart; else Bezier points [rows of E][2] of the element in the plane
                      domain of its cap, scaled so that the area per element is 1 on average */
+  double *segment;  /* NULL, or [4][4]: E is the product of this matrix with itself for u and for v, bicubic, dofs u fastest */
   int32_t valence;  /* of the cap; 4 for regular elements */
   bool is_borrowed; /* E and chart belong to the context */
 } fs_extraction;

@@ -182,7 +182,7 @@ def hull_point(x, t):
     plan = (1 - 0.35 * (1 - x) ** 2) * (1 - x**4 * (1 - 0.25 * t))
     frame = math.sin(0.5 * math.pi * t ** (0.75 + 0.9 * x))
     keel = -1.1 + 0.5 * x**6 + 0.25 * (1 - x) ** 3
-    return (6 * x, -(0.05 + 1.15 * plan * frame), keel + (0.5 - keel + 0.15 * x * x) * t**1.4)
+    return (6 * x, -(0.05 + 1.6 * plan * frame), 1.5 * keel + (0.75 - 1.5 * keel + 0.3 * x * x) * t**1.4)
 
 
 def sphere_cap(n=12, degrees=35, disturbance=0.1, seed=1):

@@ -100,6 +100,16 @@ char *test_file(const char *path, size_t *size) {
   return bytes;
 }
 
+fs_status test_parse(fs_context *ctx, const char *extension, const char *bytes, size_t size, fs_mesh **mesh) {
+  char *copy = malloc(size + (size == 0));
+  fs_status status;
+  if (copy == NULL) abort();
+  memcpy(copy, bytes, size);
+  status = fs_mesh_parse(ctx, extension, copy, size, mesh);
+  free(copy);
+  return status;
+}
+
 fs_mesh *test_shared_mesh(const char *name) {
   fs_context ctx = test_context();
   fs_mesh *mesh = NULL;

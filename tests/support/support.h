@@ -32,6 +32,9 @@ const char *test_shared(const char *relative);
 char *test_file(const char *path, size_t *size); /* whole file and a zero byte behind it; the caller frees with free */
 fs_mesh *test_shared_mesh(const char *name);     /* of "meshes/NAME.obj"; NULL as test_shared */
 
+/* fs_mesh_parse of a copy of just that size, so that a sanitizer sees every byte read beyond it. */
+fs_status test_parse(fs_context *ctx, const char *extension, const char *bytes, size_t size, fs_mesh **mesh);
+
 /* Meshes, all made with malloc: fs_mesh_free with any context that has no allocator of its own.
    They end the program where the mesh is not accepted. */
 fs_mesh *test_mesh(int32_t n_vertices, const fs_vec3 *position, int32_t n_faces, const int32_t *face_start,

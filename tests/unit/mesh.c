@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: meshes from arrays: half-edges, every refusal, counts, failing allocations. */
-#include "../support/support.h"
+#include "support.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -170,7 +170,7 @@ static void test_mesh2(void **state) {
       volume += fs_vec3_dot(p[0], fs_vec3_cross(p[1], p[2])) / 6;
       assert_true(fs_vec3_dot(q, fs_vec3_cross(fs_vec3_sub(p[1], p[0]), fs_vec3_sub(p[2], p[0]))) < 0);
     }
-    assert_true(volume < -2);
+    assert_true(volume < -1);
     if (scene == 3) {
       int at_ends = 0;
       assert_int_equal(read_numbers(inc, "uv_vectors {", uv, 5000), 1 + 2 * n);
@@ -178,7 +178,7 @@ static void test_mesh2(void **state) {
         assert_true(uv[1 + 2 * k] > 0 && uv[1 + 2 * k] < 1);
         at_ends += uv[1 + 2 * k] == 0.001 || uv[1 + 2 * k] == 0.999;
       }
-      assert_in_range(at_ends, 2, n / 20); /* 2 of 100 at each end */
+      assert_in_range(at_ends, 2, n / 10); /* 2 of 100 at each end, and their mirror images */
     }
     clear(&memory);
   }

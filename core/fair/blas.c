@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Single role: which BLAS the solver runs on. The reference BLAS, which libblas gives where nothing better is installed,
+/* Single role: which BLAS the solver runs on, and on how many threads. The reference BLAS, which libblas gives where nothing better is installed,
    makes factorisations several times slower. */
 #include <fairsurf/fair.h>
 
 #include <dlfcn.h>
+#include <string.h>
 
 const char *fs_blas_name(bool *is_reference) {
   Dl_info info;
@@ -14,4 +15,12 @@ const char *fs_blas_name(bool *is_reference) {
   if (product != NULL && dladdr(product, &info) != 0 && info.dli_fname != NULL) name = info.dli_fname;
   if (is_reference != NULL) *is_reference = !is_known_fast;
   return name;
+}
+
+void fs_blas_set_threads(int32_t n_threads) {
+  void *address = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
+  void (*set)(int) = NULL;
+  if (address == NULL) return;
+  memcpy(&set, &address, sizeof set); /* ISO C has no cast from an object to a function */
+  set((int)n_threads);
 }
