@@ -123,7 +123,7 @@ static fs_status add_marks(job *j) {
 
 static fs_status make_fair(job *j) {
   const arguments *a = j->arguments;
-  bool is_shown = isatty(STDERR_FILENO) && !a->quiet, is_any_fixed = false;
+  bool is_shown = isatty(STDERR_FILENO) && !a->quiet;
   fs_fair_options options = {.functional = a->functional,
                              .param = a->functional_param,
                              .fixed = j->fixed,
@@ -136,11 +136,6 @@ static fs_status make_fair(job *j) {
   fs_status status;
   TRY(fs_space_rim(j->ctx, j->fine, j->space, j->fixed));
   TRY(add_marks(j));
-  for (int32_t v = 0; v < j->fine->n_vertices; v++) is_any_fixed |= j->fixed[v];
-  if (!is_any_fixed) {
-    snprintf(j->ctx->message, sizeof j->ctx->message, "nothing is fixed: mark vertices with --fixed");
-    return FS_ERR_UNSUPPORTED;
-  }
   status = fs_fair(j->ctx, j->space, &options, j->c, &j->report);
   if (is_shown) fprintf(stderr, "\n");
   if (status == FS_OK && j->report.n_free == 0) print_note(NULL, "no vertex is free: the surface stays as it is");

@@ -54,7 +54,7 @@ static void put_string(FILE *file, const char *text) {
 static void put_report(FILE *file, const arguments *a, const fs_fair_report *r, const timings *t) {
   fprintf(file, "{\n  \"version\": \"%s\",\n  \"mesh\": ", fs_version());
   put_string(file, a->mesh);
-  fprintf(file, ",\n  \"functional\": \"%s\",\n", a->functional->name);
+  fprintf(file, ",\n  \"functional\": \"%s\",\n", r->functional->name);
   fprintf(file, "  \"free\": %d,\n  \"squares\": %d,\n  \"caps\": %d,\n  ", r->n_free, r->n_squares, r->n_caps);
   put_number(file, "c", r->c, ",\n");
   put_energy(file, "start", &r->start);
@@ -66,6 +66,7 @@ static void put_report(FILE *file, const arguments *a, const fs_fair_report *r, 
     const fs_step *s = &r->trace[i];
     fprintf(file, "%s\n    {\"step\": %d, ", i > 0 ? "," : "", s->number);
     put_number(file, "F", s->value, ", ");
+    put_number(file, "c", s->c, ", ");
     put_number(file, "gradient", s->gradient, ", ");
     put_number(file, "damping", s->damping, ", ");
     put_number(file, "length", s->length, ", ");

@@ -12,8 +12,8 @@ enum { FORM_BICUBIC, FORM_MESH2 };
 
 static const fs_param params[] = {
     [SCENE] = {"scene", "how the scene shows the surface; curvature implies mesh2", 0, 0, 3, scene_names},
-    [FORM] = {"form", "what the object consists of", FORM_BICUBIC, 0, 1, form_names},
-    [STEPS] = {"steps", "each patch is drawn as 2^steps x 2^steps cells; 0: 3, fewer above 5000 patches, more for caps",
+    [FORM] = {"pov", "what the object consists of", FORM_BICUBIC, 0, 1, form_names},
+    [STEPS] = {"steps", "each patch is drawn as 2^steps x 2^steps cells; 0: 4 up to 1500 patches, then fewer, more for caps",
                0, 0, 8, NULL},
     [TOLERANCE] = {"tolerance",
                    "largest distance of bicubic pieces from patches of higher degree, as part of the box diagonal",
@@ -22,7 +22,9 @@ static const fs_param params[] = {
 };
 
 /* Steps when they are automatic: a patch takes 30 kB at 3, 8.7 kB at 2 in the renderer. */
-static int32_t automatic_steps(size_t n_pieces) { return n_pieces <= 5000 ? 3 : n_pieces <= 50000 ? 2 : 1; }
+static int32_t automatic_steps(size_t n_pieces) {
+  return n_pieces <= 1500 ? 4 : n_pieces <= 5000 ? 3 : n_pieces <= 50000 ? 2 : 1;
+}
 
 /* Patches may be divided while one step at least is left for the pieces. */
 static int32_t most_divisions(int32_t steps, int32_t n_patches) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* NAME.inc as native patches: a union of bicubic_patch, rows of points along u, so that outside is p_u x p_v. */
 #include "povray.h"
+#include "math/vec3.h"
 
 void fs_povray_write_head(fs_writer *w, const fs_povray_model *m) {
   const char *name = m->name;
@@ -51,12 +52,37 @@ static void write_steps(fs_writer *w, const fs_povray_model *model, const fs_pov
   fs_writer_printf(w, "#declare %s_Less = %s_Steps - %d;\n", name, name, (int)pieces->m);
 }
 
-static void write_piece(fs_writer *w, const char *name, bool is_part, const fs_vec3 *point) {
+/* A ray that meets a side of two triangles exactly is lost where rounding puts it beside both, which symmetric views along
+   the spokes of a cap, or along the diagonal of a sector, do show. So patches are drawn over slightly wider parameters:
+   neighbours overlap by less than can be seen, and as the four amounts differ, no line of the cells lies on a symmetry. */
+static const double wider_u[2] = {-1e-6, 1 + 1.7e-6}, wider_v[2] = {-2.3e-6, 1 + 0.6e-6};
+
+static fs_vec3 between(fs_vec3 a, fs_vec3 b, double t) {
+  return fs_vec3_add(fs_vec3_scale(a, 1 - t), fs_vec3_scale(b, t));
+}
+
+/* The four points of a cubic over the wider interval: its blossom at (t0, t0, t0), (t0, t0, t1), … */
+static void widen(fs_vec3 *line, int stride, const double wider[2]) {
+  fs_vec3 out[4];
+  for (int k = 0; k < 4; k++) {
+    fs_vec3 b[4] = {line[0], line[stride], line[2 * stride], line[3 * stride]};
+    for (int step = 0; step < 3; step++)
+      for (int i = 0; i < 3 - step; i++) b[i] = between(b[i], b[i + 1], wider[step >= 3 - k]);
+    out[k] = b[0];
+  }
+  for (int k = 0; k < 4; k++) line[k * stride] = out[k];
+}
+
+static void write_piece(fs_writer *w, const char *name, bool is_part, const fs_vec3 *exact) {
   const char *steps = is_part ? "Less" : "Steps";
+  fs_vec3 point[16];
+  for (int k = 0; k < 16; k++) point[k] = exact[k];
+  for (int j = 0; j < 4; j++) widen(point + 4 * j, 1, wider_u);
+  for (int i = 0; i < 4; i++) widen(point + i, 4, wider_v);
   fs_writer_printf(w, "bicubic_patch { type 1 flatness 0 u_steps %s_%s v_steps %s_%s\n", name, steps, name, steps);
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 4; j++) {
-      fs_povray_vector(w, point[i + 4 * j], 10);
+      fs_povray_vector(w, point[i + 4 * j], 12);
       fs_writer_printf(w, i == 3 && j == 3 ? " }\n" : j == 3 ? ",\n" : ",");
     }
 }

@@ -15,7 +15,7 @@ static const char camera[] = "#declare $_Middle = ($_Min + $_Max) / 2;\n"
                              "  angle 2 * degrees(atan2(0.25 * max(1, image_width / image_height), 1))\n"
                              "  look_at $_Middle\n"
                              "}\n"
-                             "background { rgb 1 }\n";
+                             "background { rgb <0.62, 0.68, 0.75> }\n";
 
 static const char *const scenes[] = {
     [FS_POVRAY_SHADED] = "light_source { $_Middle + <3, -6, 8> * $_Radius rgb 1\n"
@@ -29,7 +29,7 @@ static const char *const scenes[] = {
     [FS_POVRAY_ZEBRA] = "// stripes on a sphere that only the mirror sees\n"
                         "sphere { 0, 1 hollow no_image no_shadow\n"
                         "  pigment { gradient x triangle_wave frequency 5\n"
-                        "    color_map { [0 rgb 1] [0.485 rgb 1] [0.515 rgb 0.02] [1 rgb 0.02] } }\n"
+                        "    color_map { [0 rgb 0.98] [0.485 rgb 0.98] [0.515 rgb 0.02] [1 rgb 0.02] } }\n"
                         "  finish { ambient 0 emission 1 diffuse 0 }\n"
                         "  scale 50 * $_Radius translate $_Middle\n"
                         "}\n"
@@ -38,7 +38,7 @@ static const char *const scenes[] = {
                            "object { $\n"
                            "  pigment { slope { <0.4, -0.6, 0.7> } frequency 16\n"
                            "    color_map { [0 rgb 0.1] [0.49 rgb 0.1] [0.51 rgb 1] [1 rgb 1] } }\n"
-                           "  finish { ambient 0 emission 0.75 diffuse 0 }\n"
+                           "  finish { ambient 0 emission 0.95 diffuse 0 }\n"
                            "}\n",
     [FS_POVRAY_CURVATURE] =
         "light_source { $_Middle + <3, -6, 8> * $_Radius rgb 0.8 shadowless }\n"

@@ -79,10 +79,12 @@ static const fs_density dirichlet = {.name = "dirichlet",
                                      .is_quadratic = true,
                                      .evaluate = dirichlet_evaluate};
 
-static void film_weights(const double *param, const fs_scale *scale, double *weight) {
+static void film_combine(const double *param, const fs_scale *scale, const double *integral, double *value,
+                         double *derivative) {
   (void)scale;
-  weight[0] = 1;
-  weight[1] = param[0];
+  *value = integral[0] + param[0] * integral[1];
+  derivative[0] = 1;
+  derivative[1] = param[0];
 }
 
 static const fs_param film_params[] = {
@@ -94,7 +96,8 @@ static const fs_functional film = {.name = "film",
                                    .params = film_params,
                                    .n_terms = 2,
                                    .term = {&area, &dirichlet},
-                                   .weights = film_weights};
+                                   .combine = film_combine,
+                                   .is_linear = true};
 
 int main(int argc, char **argv) {
   if (argc != 3) {

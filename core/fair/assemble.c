@@ -168,7 +168,7 @@ fs_status fs_problem_evaluate(fs_problem *p, fs_order order, double *integral, d
                               fs_sparse *hessian) {
   fs_status status = FS_OK;
   const fs_space *space = p->space;
-  double all[FS_MAX_TERMS] = {0}, caps[FS_MAX_TERMS] = {0};
+  double all[FS_MAX_TERMS + 2] = {0}, caps[FS_MAX_TERMS + 2] = {0};
   if (g != NULL) memset(g, 0, 3 * (size_t)p->n_free * sizeof *g);
   if (order >= FS_HESSIAN) fs_sparse_clear(hessian);
   for (int32_t first = 0; first < space->n_elements; first += p->n_batch) {

@@ -7,8 +7,8 @@
 #include "fair/lanes.h"
 #include "fair/kernels.h"
 
-static const int n_columns[N_DERIVATIVES] = {2, 2, 5, 5, 5, 9, 9, 9, 9};   /* of row k of A that may differ from zero */
-static const int first_row[N_DERIVATIVES] = {0, 0, 2, 2, 2, 5, 5, 5, 5};   /* of column i */
+static const int n_columns[N_DERIVATIVES] = {2, 2, 5, 5, 5, 9, 9, 9, 9}; /* of row k of A that may differ from zero */
+static const int first_row[N_DERIVATIVES] = {0, 0, 2, 2, 2, 5, 5, 5, 5}; /* of column i */
 
 void FS_KERNEL(fs_to_chart)(const double *inverse, const double *y, double *z) {
   for (int l = 0; l < FS_BLOCK; l += FS_LANES)

@@ -63,10 +63,10 @@ typedef struct triple {
   signed char k, x, y, z;
 } triple;
 static const triple triples[] = {
-    {S_L, D_UU, D_U, D_V},    {S_M, D_UV, D_U, D_V},    {S_N, D_VV, D_U, D_V},   {S_LU, D_UUU, D_U, D_V},
-    {S_LU, D_UU, D_U, D_UV},  {S_LV, D_UUV, D_U, D_V},  {S_LV, D_UU, D_UV, D_V}, {S_LV, D_UU, D_U, D_VV},
-    {S_MU, D_UUV, D_U, D_V},  {S_MU, D_UV, D_UU, D_V},  {S_MV, D_UVV, D_U, D_V}, {S_MV, D_UV, D_U, D_VV},
-    {S_NU, D_UVV, D_U, D_V},  {S_NU, D_VV, D_UU, D_V},  {S_NU, D_VV, D_U, D_UV}, {S_NV, D_VVV, D_U, D_V},
+    {S_L, D_UU, D_U, D_V},   {S_M, D_UV, D_U, D_V},   {S_N, D_VV, D_U, D_V},   {S_LU, D_UUU, D_U, D_V},
+    {S_LU, D_UU, D_U, D_UV}, {S_LV, D_UUV, D_U, D_V}, {S_LV, D_UU, D_UV, D_V}, {S_LV, D_UU, D_U, D_VV},
+    {S_MU, D_UUV, D_U, D_V}, {S_MU, D_UV, D_UU, D_V}, {S_MV, D_UVV, D_U, D_V}, {S_MV, D_UV, D_U, D_VV},
+    {S_NU, D_UVV, D_U, D_V}, {S_NU, D_VV, D_UU, D_V}, {S_NU, D_VV, D_U, D_UV}, {S_NV, D_VVV, D_U, D_V},
     {S_NV, D_VV, D_UV, D_V},
 };
 enum { N_TRIPLES = sizeof triples / sizeof triples[0] };
@@ -126,8 +126,8 @@ static inline void r_times(const lanes *s, const lanes *j, lanes *out) {
               2.0 * (s[S_FU] * j[S_F] + s[S_F] * j[S_FU]);
   out[R_WV] = s[S_G] * j[S_EV] + s[S_EV] * j[S_G] + s[S_GV] * j[S_E] + s[S_E] * j[S_GV] -
               2.0 * (s[S_FV] * j[S_F] + s[S_F] * j[S_FV]);
-  out[R_A] = s[S_N] * j[S_E] + s[S_E] * j[S_N] - 2.0 * (s[S_M] * j[S_F] + s[S_F] * j[S_M]) + s[S_L] * j[S_G] +
-             s[S_G] * j[S_L];
+  out[R_A] =
+      s[S_N] * j[S_E] + s[S_E] * j[S_N] - 2.0 * (s[S_M] * j[S_F] + s[S_F] * j[S_M]) + s[S_L] * j[S_G] + s[S_G] * j[S_L];
   out[R_AU] = s[S_N] * j[S_EU] + s[S_EU] * j[S_N] + s[S_NU] * j[S_E] + s[S_E] * j[S_NU] -
               2.0 * (s[S_M] * j[S_FU] + s[S_FU] * j[S_M] + s[S_MU] * j[S_F] + s[S_F] * j[S_MU]) + s[S_L] * j[S_GU] +
               s[S_GU] * j[S_L] + s[S_LU] * j[S_G] + s[S_G] * j[S_LU];
@@ -247,8 +247,10 @@ static inline void outer_function(const lanes *s, int order, outer *o) {
 /* ---- the whole --------------------------------------------------------------------------------------------------- */
 
 /* Rows of s that the vectors p_u … p_vv act on, for the sparse product J^T K. */
-static const signed char rows_u[] = {S_E, S_F, S_EU, S_EV, S_FU, S_FV, S_L, S_M, S_N, S_LU, S_LV, S_MU, S_MV, S_NU, S_NV};
-static const signed char rows_v[] = {S_F, S_G, S_FU, S_FV, S_GU, S_GV, S_L, S_M, S_N, S_LU, S_LV, S_MU, S_MV, S_NU, S_NV};
+static const signed char rows_u[] = {S_E, S_F,  S_EU, S_EV, S_FU, S_FV, S_L, S_M,
+                                     S_N, S_LU, S_LV, S_MU, S_MV, S_NU, S_NV};
+static const signed char rows_v[] = {S_F, S_G,  S_FU, S_FV, S_GU, S_GV, S_L, S_M,
+                                     S_N, S_LU, S_LV, S_MU, S_MV, S_NU, S_NV};
 static const signed char rows_uu[] = {S_EU, S_FU, S_L, S_LU, S_LV, S_MU, S_NU};
 static const signed char rows_uv[] = {S_EV, S_FU, S_FV, S_GU, S_M, S_LU, S_LV, S_MU, S_MV, S_NU, S_NV};
 static const signed char rows_vv[] = {S_FV, S_GV, S_N, S_LV, S_MV, S_NU, S_NV};

@@ -84,7 +84,8 @@ static inline void tangential(const lanes (*p)[3], lanes *f, lanes (*df)[3], lan
         lanes a_i = sum[k][i], a_j = sum[k][j], nn_w = n[i] * n[j] * w;
         aa[3 * i + j] = -2.0 * nn_w;
         an[3 * i + j] = -2.0 * w * (n[i] * a_j - 2.0 * z[k] * nn_w);
-        nn[3 * i + j] -= 2.0 * w * (a_i * a_j - 2.0 * z[k] * w * (a_i * n[j] + n[i] * a_j) + 4.0 * z[k] * z[k] * w * nn_w);
+        nn[3 * i + j] -=
+            2.0 * w * (a_i * a_j - 2.0 * z[k] * w * (a_i * n[j] + n[i] * a_j) + 4.0 * z[k] * z[k] * w * nn_w);
         if (i == j) {
           an[3 * i + j] -= 2.0 * w * z[k];
           nn[3 * i + j] += 2.0 * z[k] * z[k] * w * w;

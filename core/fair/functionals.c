@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: the table of functionals, and the densities they are made of. */
 #include "fair/kernels.h"
+#include "fair/low_order.h"
 
 #include <string.h>
 
@@ -40,45 +41,140 @@ const fs_density fs_density_triharmonic = {.name = "triharmonic",
                                            .zero_pairs = ~OF_SUMS,
                                            .evaluate = triharmonic};
 
+const fs_density fs_density_thin_plate = {.name = "thin-plate",
+                                          .summary = "|p_uu|^2 + 2 |p_uv|^2 + |p_vv|^2",
+                                          .order = 2,
+                                          .is_quadratic = true,
+                                          .evaluate = fs_thin_plate};
+const fs_density fs_density_willmore = {
+    .name = "willmore", .summary = "H^2 dM", .order = 2, .is_geometric = true, .evaluate = fs_willmore};
+const fs_density fs_density_area = {
+    .name = "area", .summary = "dM", .order = 1, .is_geometric = true, .evaluate = fs_area};
+
 /* ---- functionals ---- */
 
-static void weight_one(const double *param, const fs_scale *scale, double *weight) {
+static void only_the_first(const double *param, const fs_scale *scale, const double *integral, double *value,
+                           double *derivative) {
   (void)param, (void)scale;
-  weight[0] = 1;
+  *value = integral[0];
+  derivative[0] = 1;
 }
 
 /* F = S + c Q, c = C n^2 / D^4: n squares, D the largest distance between fixed vertices [Kiciak 2013]. */
-static void weight_penalised(const double *param, const fs_scale *scale, double *weight) {
+static void penalised(const double *param, const fs_scale *scale, const double *integral, double *value,
+                      double *derivative) {
   double n = scale->n_squares, d2 = scale->diameter * scale->diameter;
-  weight[0] = 1;
-  weight[1] = d2 > 0 ? param[0] * n * n / (d2 * d2) : 0;
+  derivative[0] = 1;
+  derivative[1] = d2 > 0 ? param[0] * n * n / (d2 * d2) : 0;
+  *value = integral[0] + derivative[1] * integral[1];
 }
 
-static const fs_param no_params[] = {{0}};
-static const fs_param penalised_params[] = {
-    {"C", "weight of Q before scaling by (number of squares)^2 / (largest distance of fixed vertices)^4", 0.01, 0, 1e6, NULL},
-    {0}};
+/* The same with Q scaled to the dimension of the first integral: length^0 for Willmore, length^2 for the area. */
+static void willmore_penalised(const double *param, const fs_scale *scale, const double *integral, double *value,
+                               double *derivative) {
+  double n = scale->n_squares, d2 = scale->diameter * scale->diameter;
+  derivative[0] = 1;
+  derivative[1] = d2 > 0 ? param[0] / (n * n * d2) : 0;
+  *value = integral[0] + derivative[1] * integral[1];
+}
+static void area_penalised(const double *param, const fs_scale *scale, const double *integral, double *value,
+                           double *derivative) {
+  double n = scale->n_squares;
+  derivative[0] = 1;
+  derivative[1] = param[0] / (n * n);
+  *value = integral[0] + derivative[1] * integral[1];
+}
 
-static const fs_functional penalised = {"penalised",
-                                        "F = S + c Q: curvature variation and a penalty on uneven parametrisation",
-                                        penalised_params,
-                                        2,
-                                        {&fs_density_curvature_variation, &fs_density_tangential},
-                                        weight_penalised};
-static const fs_functional curvature = {"curvature-variation",
-                                        "S: the integral of |grad_M H|^2; depends on the shape only",
-                                        no_params,
-                                        1,
-                                        {&fs_density_curvature_variation},
-                                        weight_one};
-static const fs_functional harmonic = {"triharmonic",
-                                       "the integral of |grad Laplace p|^2: quadratic, depends on the parametrisation",
-                                       no_params,
-                                       1,
-                                       {&fs_density_triharmonic},
-                                       weight_one};
+/* F = S A + C n^2 Q / A */
+static void scale_free(const double *param, const fs_scale *scale, const double *integral, double *value,
+                       double *derivative) {
+  double S = integral[0], Q = integral[1], A = integral[2], n = scale->n_squares, c = param[0] * n * n / A;
+  *value = S * A + c * Q;
+  derivative[0] = A;
+  derivative[1] = c;
+  derivative[2] = S - c * Q / A;
+}
 
-const fs_functional *const fs_functionals[] = {&penalised, &curvature, &harmonic, NULL};
+static const char C_summary[] =
+    "weight of Q, times (squares)^2 / (largest distance of fixed vertices)^4, or / area where nothing is fixed";
+static const fs_param penalty[] = {{"C", C_summary, 0.01, 0, 1e6, NULL}, {0}};
+static const fs_param small_penalty[] = {{"C", C_summary, 1e-4, 0, 1e6, NULL}, {0}};
+
+static const fs_functional functional_scale_free = {
+    .name = "scale-free",
+    .summary = "S A + C n^2 Q / A for surfaces of which nothing is fixed; C lowered in steps, keeps the area",
+    .params = small_penalty,
+    .n_terms = 3,
+    .term = {&fs_density_curvature_variation, &fs_density_tangential, &fs_density_area},
+    .combine = scale_free,
+    .is_scale_free = true,
+    .is_continued = true};
+static const fs_functional functional_scale_free_penalised = {
+    .name = "scale-free-penalised",
+    .summary = "S A + C n^2 Q / A with C as given",
+    .params = penalty,
+    .n_terms = 3,
+    .term = {&fs_density_curvature_variation, &fs_density_tangential, &fs_density_area},
+    .combine = scale_free,
+    .is_scale_free = true};
+static const fs_functional functional_penalised = {
+    .name = "penalised",
+    .summary = "F = S + c Q: curvature variation and a penalty on uneven parametrisation",
+    .params = penalty,
+    .n_terms = 2,
+    .term = {&fs_density_curvature_variation, &fs_density_tangential},
+    .combine = penalised,
+    .is_linear = true,
+    .when_nothing_is_fixed = &functional_scale_free_penalised};
+static const fs_functional functional_curvature_variation = {
+    .name = "curvature-variation",
+    .summary = "S, the integral of |grad_M H|^2: F with C lowered in steps",
+    .params = small_penalty,
+    .n_terms = 2,
+    .term = {&fs_density_curvature_variation, &fs_density_tangential},
+    .combine = penalised,
+    .is_linear = true,
+    .is_continued = true,
+    .when_nothing_is_fixed = &functional_scale_free};
+static const fs_functional functional_triharmonic = {
+    .name = "triharmonic",
+    .summary = "the integral of |grad Laplace p|^2: linear, depends on the parametrisation",
+    .n_terms = 1,
+    .term = {&fs_density_triharmonic},
+    .combine = only_the_first,
+    .is_linear = true};
+static const fs_functional functional_thin_plate = {
+    .name = "thin-plate",
+    .summary = "the integral of |p_uu|^2 + 2 |p_uv|^2 + |p_vv|^2: linear, depends on the parametrisation",
+    .n_terms = 1,
+    .term = {&fs_density_thin_plate},
+    .combine = only_the_first,
+    .is_linear = true};
+static const fs_functional functional_willmore = {.name = "willmore",
+                                                  .summary =
+                                                      "the integral of H^2, and a penalty on uneven parametrisation",
+                                                  .params = penalty,
+                                                  .n_terms = 2,
+                                                  .term = {&fs_density_willmore, &fs_density_tangential},
+                                                  .combine = willmore_penalised,
+                                                  .is_linear = true};
+static const fs_functional functional_area = {.name = "area",
+                                              .summary = "the area, and a penalty on uneven parametrisation",
+                                              .params = penalty,
+                                              .n_terms = 2,
+                                              .term = {&fs_density_area, &fs_density_tangential},
+                                              .combine = area_penalised,
+                                              .is_linear = true};
+
+const fs_functional *const fs_functionals[] = {&functional_penalised,
+                                               &functional_curvature_variation,
+                                               &functional_scale_free,
+                                               &functional_scale_free_penalised,
+                                               &functional_willmore,
+                                               &functional_area,
+                                               &functional_triharmonic,
+                                               &functional_thin_plate,
+                                               NULL};
 
 const fs_functional *fs_functional_find(const char *name) {
   for (int i = 0; fs_functionals[i] != NULL; i++)

@@ -2,29 +2,29 @@
 /* Single role: the sets of kernels that were built, and the choice among them at run time. */
 #include "fair/kernels.h"
 
-#define DECLARE(suffix)                                                                                                \
-  void fs_curvature_variation##suffix(const double *, double *, double *, double *);                                   \
-  void fs_tangential##suffix(const double *, double *, double *, double *);                                            \
-  void fs_triharmonic##suffix(const double *, double *, double *, double *);                                           \
-  void fs_jets##suffix(int32_t, const double *, const double *, double *);                                             \
-  void fs_gradient##suffix(int32_t, const double *, const double *, double *);                                         \
-  void fs_hessian##suffix(int32_t, const double *, const double *, double *);                                          \
-  void fs_hessian_tensor##suffix(fs_tensor *, int32_t, const double *);                                                \
-  void fs_hessian_tensor_finish##suffix(fs_tensor *, double *);                                                        \
-  void fs_add_scaled##suffix(int32_t, const double *, const double *, bool, double *);                                 \
-  void fs_to_chart##suffix(const double *, const double *, double *);                                                  \
-  void fs_add_from_chart##suffix(const double *, const double *, const double *, const double *, double *, double *);  \
-  static const fs_kernels kernels##suffix = {.name = &#suffix[1],                                                      \
-                                             .curvature_variation = fs_curvature_variation##suffix,                    \
-                                             .tangential = fs_tangential##suffix,                                      \
-                                             .triharmonic = fs_triharmonic##suffix,                                    \
-                                             .jets = fs_jets##suffix,                                                  \
-                                             .gradient = fs_gradient##suffix,                                          \
-                                             .hessian = fs_hessian##suffix,                                            \
-                                             .hessian_tensor = fs_hessian_tensor##suffix,                              \
-                                             .hessian_tensor_finish = fs_hessian_tensor_finish##suffix,                \
-                                             .add_scaled = fs_add_scaled##suffix,                                      \
-                                             .to_chart = fs_to_chart##suffix,                                          \
+#define DECLARE(suffix)                                                                                               \
+  void fs_curvature_variation##suffix(const double *, double *, double *, double *);                                  \
+  void fs_tangential##suffix(const double *, double *, double *, double *);                                           \
+  void fs_triharmonic##suffix(const double *, double *, double *, double *);                                          \
+  void fs_jets##suffix(int32_t, const double *, const double *, double *);                                            \
+  void fs_gradient##suffix(int32_t, const double *, const double *, double *);                                        \
+  void fs_hessian##suffix(int32_t, const double *, const double *, double *);                                         \
+  void fs_hessian_tensor##suffix(fs_tensor *, int32_t, const double *);                                               \
+  void fs_hessian_tensor_finish##suffix(fs_tensor *, double *);                                                       \
+  void fs_add_scaled##suffix(int32_t, const double *, const double *, bool, double *);                                \
+  void fs_to_chart##suffix(const double *, const double *, double *);                                                 \
+  void fs_add_from_chart##suffix(const double *, const double *, const double *, const double *, double *, double *); \
+  static const fs_kernels kernels##suffix = {.name = &#suffix[1],                                                     \
+                                             .curvature_variation = fs_curvature_variation##suffix,                   \
+                                             .tangential = fs_tangential##suffix,                                     \
+                                             .triharmonic = fs_triharmonic##suffix,                                   \
+                                             .jets = fs_jets##suffix,                                                 \
+                                             .gradient = fs_gradient##suffix,                                         \
+                                             .hessian = fs_hessian##suffix,                                           \
+                                             .hessian_tensor = fs_hessian_tensor##suffix,                             \
+                                             .hessian_tensor_finish = fs_hessian_tensor_finish##suffix,               \
+                                             .add_scaled = fs_add_scaled##suffix,                                     \
+                                             .to_chart = fs_to_chart##suffix,                                         \
                                              .add_from_chart = fs_add_from_chart##suffix};
 
 DECLARE(_base)

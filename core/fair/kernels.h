@@ -35,8 +35,8 @@ typedef struct fs_kernels {
   void (*hessian_tensor_finish)(fs_tensor *tensor, double *h);
   void (*add_scaled)(int32_t n, const double *scale, const double *from, bool is_first, double *to);
   void (*to_chart)(const double *inverse, const double *y, double *z);
-  void (*add_from_chart)(const double *inverse, const double *scale, const double *df, const double *ddf, double *sum_df,
-                         double *sum_ddf);
+  void (*add_from_chart)(const double *inverse, const double *scale, const double *df, const double *ddf,
+                         double *sum_df, double *sum_ddf);
 } fs_kernels;
 
 /* The best set for this processor. */
@@ -47,8 +47,8 @@ int32_t fs_kernels_all(const fs_kernels *all[4]);
 #ifdef FS_FAIR_LANES_H
 /* Runs a kernel for vectors of points over the block: moves the arrays of fs_density to vectors and back. */
 typedef void fs_lanes_kernel(const lanes (*p)[3], lanes *f, lanes (*df)[3], lanes (*ddf)[9]);
-static inline __attribute__((always_inline)) void fs_density_by_lanes(const double *x, double *f, double *df, double *ddf,
-                                                                      fs_lanes_kernel *kernel) {
+static inline __attribute__((always_inline)) void fs_density_by_lanes(const double *x, double *f, double *df,
+                                                                      double *ddf, fs_lanes_kernel *kernel) {
   lanes p[N_DERIVATIVES][3], value, first[N_DERIVATIVES][3], second[N_PAIRS][9];
   for (int l = 0; l < FS_BLOCK; l += FS_LANES) {
     for (int i = 0; i < 3 * N_DERIVATIVES; i++) p[i / 3][i % 3] = lanes_load(x + i * FS_BLOCK + l);

@@ -65,6 +65,27 @@ done:
   return status;
 }
 
+/* Far from the end fewer nodes do; extra dofs of caps would exploit a rule that is too coarse. */
+static int32_t nodes_of(const fs_problem *p, const fs_extraction *x, int32_t level) {
+  int32_t n = x->valence == 4 ? p->n_nodes_square : p->n_nodes_cap;
+  int32_t few = x->valence == 4 ? 4 : x->n_dofs > 6 * x->valence + 1 ? 10 : 8;
+  return level == 1 && few < n ? few : n;
+}
+
+fs_status fs_problem_set_level(fs_problem *p, int32_t level) {
+  fs_status status = FS_OK;
+  if (p->tables[level] == NULL) {
+    FS_ALLOC(p->ctx, p->tables[level], p->space->n_extractions);
+    for (int32_t i = 0; i < p->space->n_extractions; i++)
+      FS_TRY(fs_basis_create(p->ctx, &p->space->extraction[i], nodes_of(p, &p->space->extraction[i], level),
+                             &p->tables[level][i]));
+  }
+  p->table = p->tables[level];
+  p->level = level;
+done:
+  return status;
+}
+
 fs_status fs_problem_create(fs_context *ctx, const fs_space *space, int32_t n_terms, const fs_density *const *term,
                             const bool *fixed, int32_t n_nodes_square, int32_t n_nodes_cap, const fs_vec3 *c,
                             fs_problem **result) {
@@ -78,17 +99,17 @@ fs_status fs_problem_create(fs_context *ctx, const fs_space *space, int32_t n_te
   for (int32_t t = 0; t < n_terms; t++) {
     p->term[t] = term[t];
     if (term[t]->order < 1 || term[t]->order > 3 || term[t]->order > space->continuity + 1) {
-      status = fs_fail(ctx, FS_ERR_UNSUPPORTED, "the density %s of order %d needs contact of order %d, the space has %d",
-                       term[t]->name, term[t]->order, term[t]->order - 1, space->continuity);
+      status =
+          fs_fail(ctx, FS_ERR_UNSUPPORTED, "the density %s of order %d needs contact of order %d, the space has %d",
+                  term[t]->name, term[t]->order, term[t]->order - 1, space->continuity);
       goto done;
     }
   }
   FS_ALLOC(ctx, p->c, space->n_dofs);
   memcpy(p->c, c, (size_t)space->n_dofs * sizeof *c);
-  FS_ALLOC(ctx, p->table, space->n_extractions);
-  for (int32_t i = 0; i < space->n_extractions; i++)
-    FS_TRY(fs_basis_create(ctx, &space->extraction[i],
-                           space->extraction[i].valence == 4 ? n_nodes_square : n_nodes_cap, &p->table[i]));
+  p->n_nodes_square = n_nodes_square;
+  p->n_nodes_cap = n_nodes_cap;
+  FS_TRY(fs_problem_set_level(p, 0));
   FS_TRY(number_unknowns(ctx, p, fixed));
   FS_TRY(make_pattern(ctx, p));
   FS_TRY(make_buffers(ctx, p));
@@ -101,13 +122,16 @@ done:
 
 void fs_problem_free(fs_context *ctx, fs_problem *p) {
   if (p == NULL) return;
-  for (int32_t i = 0; p->table != NULL && i < p->space->n_extractions; i++) fs_basis_free(ctx, p->table[i]);
+  for (int level = 0; level < 2; level++) {
+    for (int32_t i = 0; p->tables[level] != NULL && i < p->space->n_extractions; i++)
+      fs_basis_free(ctx, p->tables[level][i]);
+    fs_release(ctx, p->tables[level]);
+  }
   for (int32_t i = 0; p->result != NULL && i < p->n_batch; i++) {
     fs_release(ctx, p->result[i].gradient);
     fs_release(ctx, p->result[i].hessian);
   }
   for (int32_t i = 0; p->scratch != NULL && i < fs_n_workers(ctx); i++) fs_release(ctx, p->scratch[i]);
-  fs_release(ctx, p->table);
   fs_release(ctx, p->result);
   fs_release(ctx, p->scratch);
   fs_release(ctx, p->unknown);

@@ -10,26 +10,28 @@
 
 /* Results of one element, made in parallel and added in the order of the elements. */
 typedef struct fs_element_result {
-  double integral[FS_MAX_TERMS]; /* of each term, unweighted */
-  double *gradient;              /* [n_dofs][3] */
-  double *hessian;               /* [6][n_padded][n_padded]: component pairs xx xy xz yy yz zz; xx, yy, zz: upper part only */
+  double integral[FS_MAX_TERMS + 2]; /* of each term, unweighted */
+  double *gradient;                  /* [n_dofs][3] */
+  double *hessian; /* [6][n_padded][n_padded]: component pairs xx xy xz yy yz zz; xx, yy, zz: upper part only */
 } fs_element_result;
 
 typedef struct fs_problem {
   fs_context *ctx;
   const fs_space *space;
   int32_t n_terms;
-  const fs_density *term[FS_MAX_TERMS];
-  double weight[FS_MAX_TERMS];
+  const fs_density *term[FS_MAX_TERMS + 2];
+  double weight[FS_MAX_TERMS + 2];
   const fs_kernels *kernels;
-  fs_basis_table **table; /* [space->n_extractions] */
+  int32_t level;                       /* 0: all nodes; 1: few, for steps far from the end */
+  fs_basis_table **tables[2], **table; /* [space->n_extractions] each; table: those of the level */
+  int32_t n_nodes_square, n_nodes_cap;
   int32_t n_free;
-  int32_t *unknown;  /* [n_dofs] number among the free dofs, or FS_NONE */
-  fs_sparse *pattern; /* of the Hessian */
-  fs_vec3 *c;        /* [n_dofs] the dofs at the last x */
-  int32_t n_batch;   /* elements whose results are kept at once */
+  int32_t *unknown;          /* [n_dofs] number among the free dofs, or FS_NONE */
+  fs_sparse *pattern;        /* of the Hessian */
+  fs_vec3 *c;                /* [n_dofs] the dofs at the last x */
+  int32_t n_batch;           /* elements whose results are kept at once */
   fs_element_result *result; /* [n_batch] */
-  void **scratch;    /* [workers] */
+  void **scratch;            /* [workers] */
 } fs_problem;
 
 typedef enum fs_order { FS_VALUE, FS_GRADIENT, FS_HESSIAN } fs_order;
@@ -38,6 +40,9 @@ typedef enum fs_order { FS_VALUE, FS_GRADIENT, FS_HESSIAN } fs_order;
 fs_status fs_problem_create(fs_context *ctx, const fs_space *space, int32_t n_terms, const fs_density *const *term,
                             const bool *fixed, int32_t n_nodes_square, int32_t n_nodes_cap, const fs_vec3 *c,
                             fs_problem **problem);
+
+/* Changes the quadrature; the tables of level 1 are made at first use. */
+fs_status fs_problem_set_level(fs_problem *problem, int32_t level);
 void fs_problem_free(fs_context *ctx, fs_problem *problem); /* NULL is allowed */
 
 /* Integrals of the terms at problem->c, all elements (integral[n_terms]) and those on caps; with order above FS_VALUE also the

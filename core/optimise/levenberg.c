@@ -20,7 +20,8 @@ enum { MAX_TRIALS = 60 }; /* factorisations for one step: nu has grown beyond an
 typedef struct state {
   int32_t n;
   double *x, *trial, *g, *g_trial, *s, *diagonal, *shift;
-  double f, nu, nu_failed, growth;
+  double *v, *w; /* the normal, and (H + nu D)^-1 times it */
+  double f, nu, nu_min, nu_failed, growth;
   fs_sparse hessian; /* values of its own on the pattern of the objective */
   fs_solver *solver;
 } state;
@@ -46,7 +47,8 @@ static void set_diagonal(state *t) {
 }
 
 /* Factors H + nu D, raising nu until it is positive definite, and solves for the step. */
-static fs_status find_step(fs_context *ctx, state *t, fs_minimise_report *report, int32_t *n_factorisations) {
+static fs_status find_step(fs_context *ctx, const fs_objective *o, state *t, fs_minimise_report *report,
+                           int32_t *n_factorisations) {
   fs_status status = FS_OK;
   bool is_definite = false;
   while (true) {
@@ -64,6 +66,12 @@ static fs_status find_step(fs_context *ctx, state *t, fs_minimise_report *report
   }
   for (size_t i = 0; i < 3 * (size_t)t->n; i++) t->s[i] = -t->g[i];
   FS_TRY(fs_solver_solve(ctx, t->solver, t->s, t->s));
+  if (o->normal != NULL) { /* s = -K^-1 g - mu K^-1 v with s.v = 0 */
+    size_t n = 3 * (size_t)t->n;
+    FS_TRY(fs_solver_solve(ctx, t->solver, t->v, t->w));
+    double mu = dot(t->v, t->s, n) / dot(t->v, t->w, n);
+    for (size_t i = 0; i < n; i++) t->s[i] -= mu * t->w[i];
+  }
 done:
   return status;
 }
@@ -78,6 +86,7 @@ static void lower_damping(state *t, double gain) {
   t->growth = 2;
   t->nu = fmax(t->nu, 3 * t->nu_failed);
   t->nu_failed = t->nu_failed < 1e-12 ? 0 : 0.1 * t->nu_failed;
+  if (t->nu < t->nu_min) t->nu = t->nu_min;
   if (t->nu < 1e-15) t->nu = 0;
 }
 
@@ -92,6 +101,7 @@ static fs_status state_create(fs_context *ctx, const fs_objective *objective, st
   size_t n = (size_t)objective->n;
   t->n = objective->n;
   t->growth = 2;
+  t->solver = objective->solver;
   t->hessian = *objective->pattern;
   t->hessian.value = NULL;
   FS_ALLOC(ctx, t->trial, 3 * n);
@@ -101,19 +111,23 @@ static fs_status state_create(fs_context *ctx, const fs_objective *objective, st
   FS_ALLOC(ctx, t->diagonal, n);
   FS_ALLOC(ctx, t->shift, n);
   FS_ALLOC(ctx, t->hessian.value, 9 * (size_t)t->hessian.col_start[n]);
-  FS_TRY(fs_solver_create(ctx, objective->pattern, &t->solver));
+  if (objective->normal != NULL) {
+    FS_ALLOC(ctx, t->v, 3 * n);
+    FS_ALLOC(ctx, t->w, 3 * n);
+  }
 done:
   return status;
 }
 
 static void state_free(fs_context *ctx, state *t) {
-  fs_solver_free(ctx, t->solver);
   fs_release(ctx, t->trial);
   fs_release(ctx, t->g);
   fs_release(ctx, t->g_trial);
   fs_release(ctx, t->s);
   fs_release(ctx, t->diagonal);
   fs_release(ctx, t->shift);
+  fs_release(ctx, t->v);
+  fs_release(ctx, t->w);
   fs_release(ctx, t->hessian.value);
 }
 
@@ -126,7 +140,7 @@ static fs_status accept_step(fs_context *ctx, const fs_objective *o, state *t, f
   step->n_factorisations = 0;
   while (true) {
     double f_trial;
-    FS_TRY(find_step(ctx, t, report, &step->n_factorisations));
+    FS_TRY(find_step(ctx, o, t, report, &step->n_factorisations));
     *predicted = -0.5 * dot(t->g, t->s, n) + 0.5 * t->nu * weighted_square(t);
     for (size_t i = 0; i < n; i++) t->trial[i] = t->x[i] + t->s[i];
     FS_TRY(o->value(o->self, t->trial, &f_trial));
@@ -150,10 +164,11 @@ done:
 fs_status fs_minimise(fs_context *ctx, const fs_objective *o, const fs_minimise_options *options, double *x,
                       fs_minimise_report *report) {
   fs_status status = FS_OK;
-  state t = {.x = x, .nu = options->damping};
+  state t = {
+      .x = x, .nu = options->damping->nu, .nu_min = options->least_damping, .nu_failed = options->damping->nu_failed};
   fs_minimise_report r = {.stop = FS_MINIMISE_ITERATIONS};
   size_t n = 3 * (size_t)o->n;
-  double gradient_start = 0;
+  double gradient_start = options->gradient_start;
   FS_TRY(state_create(ctx, o, &t));
   while (true) {
     fs_minimise_step step = {.number = r.n_steps + 1};
@@ -164,7 +179,7 @@ fs_status fs_minimise(fs_context *ctx, const fs_objective *o, const fs_minimise_
     r.value = t.f;
     r.gradient = sqrt(dot(t.g, t.g, n));
     if (r.n_steps == 0) {
-      gradient_start = r.gradient;
+      if (gradient_start == 0) gradient_start = r.gradient;
       if (!isfinite(t.f) || !isfinite(r.gradient)) {
         status = fs_fail(ctx, FS_ERR_NUMERIC, "the functional is not finite at the start");
         goto done;
@@ -182,6 +197,7 @@ fs_status fs_minimise(fs_context *ctx, const fs_objective *o, const fs_minimise_
     }
     if (r.n_steps >= options->max_iterations) break;
     set_diagonal(&t);
+    if (o->normal != NULL) FS_TRY(o->normal(o->self, x, t.v));
     FS_TRY(accept_step(ctx, o, &t, &r, &step, &predicted, &is_stuck));
     if (is_stuck) {
       r.stop = r.gradient <= options->gradient_tolerance * gradient_start ? FS_MINIMISE_GRADIENT : FS_MINIMISE_DECREASE;
@@ -195,6 +211,11 @@ fs_status fs_minimise(fs_context *ctx, const fs_objective *o, const fs_minimise_
     r.gradient = step.gradient = sqrt(dot(t.g_trial, t.g_trial, n));
     if (options->monitor != NULL && !options->monitor(options->user, &step)) {
       r.stop = FS_MINIMISE_CANCELLED;
+      break;
+    }
+    if (options->gradient_tolerance == 0 && predicted <= options->decrease_tolerance * fabs(t.f) && step.gain > 0.5 &&
+        step.gain < 2) {
+      r.stop = FS_MINIMISE_DECREASE;
       break;
     }
     bool is_flat = r.gradient <= options->gradient_tolerance * gradient_start;
@@ -220,6 +241,7 @@ done:
     status = FS_OK;
   }
   if (status == FS_OK) *report = r;
+  *options->damping = (fs_damping){t.nu, t.nu_failed};
   state_free(ctx, &t);
   return status;
 }

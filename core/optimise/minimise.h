@@ -10,10 +10,13 @@
 typedef struct fs_objective {
   int32_t n;                /* groups of three */
   const fs_sparse *pattern; /* of the Hessian */
+  fs_solver *solver;        /* made for that pattern */
   void *self;
   fs_status (*value)(void *self, const double *x, double *f);
   fs_status (*gradient)(void *self, const double *x, double *f, double *g);
   fs_status (*hessian)(void *self, const double *x, double *f, double *g, fs_sparse *hessian);
+  /* A vector v[3 n] to which steps stay orthogonal; NULL: none. The Hessian need only be right on such steps. */
+  fs_status (*normal)(void *self, const double *x, double *v);
 } fs_objective;
 
 typedef enum fs_minimise_stop {
@@ -29,11 +32,18 @@ typedef struct fs_minimise_step {
   double value, gradient, damping, length, gain;
 } fs_minimise_step;
 
+/* The damping that the next step begins with, relative to the diagonal of the Hessian: 1 far from a minimum, 0 near. */
+typedef struct fs_damping {
+  double nu, nu_failed; /* nu_failed: memory of damping that did not suffice, 0 at first */
+} fs_damping;
+
 typedef struct fs_minimise_options {
   int32_t max_iterations;    /* accepted steps */
-  double gradient_tolerance; /* |g| relative to the start */
+  double gradient_tolerance; /* |g| relative to gradient_start; 0: stop by the decrease alone */
+  double gradient_start;     /* 0: the gradient at x */
   double decrease_tolerance; /* predicted decrease relative to |f| */
-  double damping;            /* of the first step, relative to the diagonal of the Hessian */
+  fs_damping *damping;       /* in and out */
+  double least_damping;      /* above 0 where the minimum is not isolated: rigid motions */
   bool (*monitor)(void *user, const fs_minimise_step *step); /* after every accepted step; false cancels; may be NULL */
   void *user;
 } fs_minimise_options;

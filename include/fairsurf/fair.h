@@ -23,27 +23,41 @@ typedef struct fs_density {
   bool is_geometric; /* unchanged when the surface is reparametrised: fed derivatives by (u, v) and integrated over the
                         unit squares; else fed derivatives by the coordinates of the element's chart, integrated there */
   bool is_quadratic; /* the second derivatives are constant: one Newton step reaches the minimum */
-  uint64_t zero_pairs; /* for order 3, bit (i, j): the second derivatives of that pair always vanish and need not be added */
+  uint64_t
+      zero_pairs; /* for order 3, bit (i, j): the second derivatives of that pair always vanish and need not be added */
   void (*evaluate)(const double *x, double *f, double *df, double *ddf);
 } fs_density;
-FS_API extern const fs_density fs_density_curvature_variation; /* |grad_M H|^2 sqrt(det G) */
-FS_API extern const fs_density fs_density_tangential;          /* tangential part of |grad Laplace p|^2 */
-FS_API extern const fs_density fs_density_triharmonic;         /* |grad Laplace p|^2 */
+FS_API extern const fs_density
+    fs_density_curvature_variation; /* |grad_M H|^2 sqrt(det G); S is its integral; length^-2 */
+FS_API extern const fs_density
+    fs_density_tangential; /* tangential part of |grad Laplace p|^2; Q is its integral; length^2 */
+FS_API extern const fs_density fs_density_triharmonic; /* |grad Laplace p|^2; length^2 */
+FS_API extern const fs_density fs_density_thin_plate;  /* |p_uu|^2 + 2 |p_uv|^2 + |p_vv|^2; length^2 */
+FS_API extern const fs_density fs_density_willmore;    /* H^2 sqrt(det G); free of scale; 4 pi on a sphere */
+FS_API extern const fs_density fs_density_area;        /* sqrt(det G); length^2 */
 
-/* What the weights of a functional may depend on besides its parameters. */
+/* What a functional may depend on besides its parameters and integrals. */
 typedef struct fs_scale {
   int32_t n_squares; /* elements of the space */
   double diameter;   /* largest distance between two fixed control vertices (0: fewer than two) */
 } fs_scale;
 
-/* A weighted sum of integrals. Lines of a table. */
-enum { FS_MAX_TERMS = 4 };
+/* A function of integrals. Lines of a table. */
+enum { FS_MAX_TERMS = 6 };
 typedef struct fs_functional {
   const char *name, *summary;
-  const fs_param *params;
-  int32_t n_terms;
+  const fs_param *params; /* ends with a NULL name; may be NULL */
+  int32_t n_terms;        /* 1 .. FS_MAX_TERMS - 2 */
   const fs_density *term[FS_MAX_TERMS];
-  void (*weights)(const double *param, const fs_scale *scale, double *weight); /* weight[n_terms] */
+  /* Its value and first derivatives by the integrals: integral[n_terms] -> *value, derivative[n_terms]. */
+  void (*combine)(const double *param, const fs_scale *scale, const double *integral, double *value,
+                  double *derivative);
+  bool is_linear; /* the derivatives are constants */
+  bool
+      is_scale_free; /* unchanged when the surface is scaled, so that nothing needs to be fixed; one term must be the area:
+                         steps keep it to first order, and the result is scaled back to it */
+  bool is_continued; /* the first parameter is lowered to its value in steps of ten, from 0.01 */
+  const struct fs_functional *when_nothing_is_fixed; /* to use instead on closed surfaces; or NULL */
 } fs_functional;
 FS_API extern const fs_functional *const fs_functionals[];        /* ends with NULL; the first is the default */
 FS_API const fs_functional *fs_functional_find(const char *name); /* NULL: unknown */
@@ -54,9 +68,10 @@ typedef enum fs_stop {
   FS_STOP_STEP,
   FS_STOP_DECREASE,
   FS_STOP_ITERATIONS,
-  FS_STOP_CANCELLED
+  FS_STOP_CANCELLED,
+  FS_STOP_TIME
 } fs_stop;
-FS_API const char *fs_stop_text(fs_stop stop); /* "gradient", "step", "decrease", "iterations", "cancelled" */
+FS_API const char *fs_stop_text(fs_stop stop); /* "gradient", "step", "decrease", "iterations", "cancelled", "time" */
 
 /* One accepted step of the minimisation. */
 typedef struct fs_step {
@@ -68,13 +83,14 @@ typedef struct fs_step {
   double gain;              /* actual decrease / predicted decrease */
   int32_t n_factorisations; /* needed for this step */
   double seconds;           /* since the start */
+  double c;                 /* weight of Q in the value */
 } fs_step;
 
 /* Values of the integrals, over all elements, fixed ones included. */
 typedef struct fs_energy {
   double F;                                                   /* the functional */
   double integral[FS_MAX_TERMS], integral_caps[FS_MAX_TERMS]; /* of each term, unweighted; the part on caps */
-  double weight[FS_MAX_TERMS];
+  double weight[FS_MAX_TERMS];                                /* derivatives of the functional by the integrals */
   double S, S_caps, Q; /* curvature variation, its part on caps, tangential part; whatever the functional is */
   double gradient;     /* Euclidean norm of the gradient of F by the free dofs */
 } fs_energy;
@@ -84,6 +100,7 @@ typedef struct fs_fair_options {
   const double *param;                 /* NULL: initial values of its params */
   const bool *fixed;                   /* [n_dofs], at least the rim where there is one; NULL: nothing is fixed */
   int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction; 0: 8 on squares, 12 in caps; at most 32 */
+  double max_seconds;                  /* 0: no limit */
   int32_t max_iterations;              /* 0: 100; negative: none, only the energies are reported */
   double gradient_tolerance;           /* relative to the start; 0: 1e-8 */
   bool start_triharmonic;              /* begin at the minimum of the triharmonic functional (a linear problem) */
@@ -93,6 +110,7 @@ typedef struct fs_fair_options {
 
 enum { FS_MAX_TRACE = 256 };
 typedef struct fs_fair_report {
+  const fs_functional *functional; /* the one used, which may be when_nothing_is_fixed of the one asked for */
   fs_stop stop;
   int32_t n_free, n_squares, n_caps; /* free dofs (a dof is a point), elements, special vertices */
   int32_t n_steps, n_hessians, n_factorisations;
@@ -117,8 +135,9 @@ FS_API fs_status fs_fair_energy(fs_context *ctx, const fs_space *space, const fs
 /* Name of the BLAS library that the solver runs on, for example a path; and whether it is the slow reference one. */
 FS_API const char *fs_blas_name(bool *is_reference);
 
-/* Number of threads of that BLAS, where it can be told (OpenBLAS); a setting of the whole process. One thread is best below
-   about 5 000 unknown points, and makes results the same on every run. */
+/* Number of threads of that BLAS, where it can be told (OpenBLAS), and whether CHOLMOD may start threads of its own; settings
+   of the process and the calling thread. One thread is best below about 5 000 unknown points, and makes results the same on
+   every run. */
 FS_API void fs_blas_set_threads(int32_t n_threads);
 
 #ifdef __cplusplus

@@ -4,8 +4,8 @@
 
 Six views, side by side in one picture, without antialiasing: three from around, three that belong to the first special
 vertex of the mesh: along its normal, and low along two of its spokes. The bicubic form is compared with triangles from
-64 x 64 cells per patch; what counts as a crack is said in crack.c. Both sides of the surface have a colour of their own,
-the inside that of the background, so that a crack shows even where there is more surface behind it.
+64 x 64 cells per patch; what counts as a crack is said in crack.c. The inside of the surface has a colour of its own, so
+that a crack shows even where there is more surface behind it.
 With --red one shared edge of a patch is moved by 1e-3 of the size, and a crack must be found.
 """
 import argparse
@@ -18,7 +18,6 @@ import sys
 import render
 
 TILE = 320  # pixels per view
-BACKGROUND = "0000ff"
 
 
 def add(a, b):
@@ -89,6 +88,8 @@ def scene_text(include, name, corners, views):
         "#version 3.7;", "global_settings { assumed_gamma 1.0 }", f'#include "{include}"', "background { rgb <0, 0, 1> }",
         f"camera {{ orthographic location <0, 0, {10 * radius}> direction -z right x * {3 * step} up y * {2 * step} }}",
         "#declare Flat = finish { ambient 0 emission 1 diffuse 0 }",
+        f"#declare Distance = pigment {{ gradient z color_map {{ [0 srgb <0.25, 0, 0>] [1 srgb <1, 0, 0>] }}"
+        f" scale {2.2 * radius} translate {-1.1 * radius} * z }}",
     ]
     for k, towards in enumerate(views):
         right, up, back = rotation_to_view(towards)
@@ -97,8 +98,8 @@ def scene_text(include, name, corners, views):
         x, y = (k % 3 - 1) * step, (0.5 - k // 3) * step
         lines.append(f"object {{ {name}\n  translate <{-middle[0]}, {-middle[1]}, {-middle[2]}>\n"
                      f"  matrix <{', '.join(map(repr, values))}, 0, 0, 0>\n  translate <{x}, {y}, 0>\n"
-                     "  texture { pigment { rgb 1 } finish { Flat } }\n"
-                     "  interior_texture { pigment { rgb <0, 0, 1> } finish { Flat } }\n}")
+                     "  texture { pigment { Distance } finish { Flat } }\n"
+                     "  interior_texture { pigment { rgb <0, 1, 0> } finish { Flat } }\n}")
     return "\n".join(lines) + "\n"
 
 
@@ -159,7 +160,7 @@ def main():
     views = directions(*render.read_obj(arguments.mesh))
     picture = make_picture(arguments, "bicubic", 0, views)
     fine = make_picture(arguments, "mesh2", arguments.steps, views)
-    result = subprocess.run([arguments.crack, picture, fine, BACKGROUND, arguments.out / "cracks.png"],
+    result = subprocess.run([arguments.crack, picture, fine, arguments.out / "cracks.png"],
                             capture_output=True, text=True, check=False)
     print((result.stdout + result.stderr).strip())
     if result.returncode > 1:

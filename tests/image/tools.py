@@ -9,7 +9,7 @@ import tempfile
 import zlib
 
 COMPARE, CRACK = sys.argv[1:3]
-SIZE, WHITE, BLUE = 24, (255, 255, 255), (0, 0, 255)
+SIZE, WHITE, BLUE, GREEN, RED, DARK = 24, (255, 255, 255), (0, 0, 255), (0, 255, 0), (200, 0, 0), (120, 0, 0)
 
 
 def write_png(path, pixels):
@@ -21,11 +21,11 @@ def write_png(path, pixels):
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
-def square(changes=()):
-    """White from 4 to 19 on blue, some pixels (x, y) changed to a colour."""
-    pixels = [[WHITE if 4 <= x < 20 and 4 <= y < 20 else BLUE for x in range(SIZE)] for y in range(SIZE)]
-    for x, y, colour in changes:
-        pixels[y][x] = colour
+def square(changes=(), colour=WHITE):
+    """A colour from 4 to 19 on blue, some pixels (x, y) changed to another."""
+    pixels = [[colour if 4 <= x < 20 and 4 <= y < 20 else BLUE for x in range(SIZE)] for y in range(SIZE)]
+    for x, y, other in changes:
+        pixels[y][x] = other
     return pixels
 
 
@@ -71,13 +71,25 @@ def main():
         expect(2, "absent.png", COMPARE, fine, folder / "absent.png")
         expect(2, "usage", COMPARE, fine)
         expect(2, "usage", COMPARE, fine, fine, "--pixels", "many")
-        expect(0, "0 cracks among 196 pixels", CRACK, path["same"], fine, "0000ff")
-        expect(0, "0 cracks", CRACK, path["rim"], fine, "0000ff")
-        expect(0, "0 cracks", CRACK, path["tinted"], fine, "0000ff")
-        expect(1, "1 cracks", CRACK, path["inner"], fine, "0000ff", folder / "cracks.png")
-        expect(0, "0 cracks among 187 pixels", CRACK, path["inner"], path["inner"], "0000ff")
-        expect(2, "shows no surface", CRACK, path["same"], path["empty"], "0000ff")
-        expect(2, "usage", CRACK, fine, fine, "blue")
+        fold = [(x, y, DARK) for x in range(12, 20) for y in range(4, 20)]
+        for key, changes in {
+                "red": [], "blue": [(9, 9, BLUE)], "green": [(9, 9, GREEN)], "rim": [(4, 5, BLUE), (19, 10, GREEN)],
+                "tinted": [(9, 9, (90, 0, 0))], "fold": fold, "green_fold": fold + [(12, 9, GREEN)],
+                "blue_fold": fold + [(12, 9, BLUE)]}.items():
+            path[key] = folder / f"{key}.png"
+            write_png(path[key], square(changes, RED))
+        fine = path["red"]
+        expect(0, "0 cracks among 196 pixels", CRACK, fine, fine)
+        expect(0, "0 cracks", CRACK, path["rim"], fine)
+        expect(0, "0 cracks", CRACK, path["tinted"], fine)
+        expect(1, "1 cracks", CRACK, path["blue"], fine, folder / "cracks.png")
+        expect(1, "1 cracks", CRACK, path["green"], fine)
+        expect(0, "0 cracks among 187 pixels", CRACK, path["blue"], path["blue"])
+        expect(0, "0 cracks", CRACK, path["green_fold"], path["fold"])
+        expect(1, "1 cracks", CRACK, path["blue_fold"], path["fold"])
+        expect(2, "shows no surface", CRACK, fine, path["empty"])
+        expect(2, "different sizes", CRACK, fine, path["small"])
+        expect(2, "usage", CRACK, fine)
     print("\n".join(failures) if failures else "comparer and crack counter do as they should")
     return 1 if failures else 0
 

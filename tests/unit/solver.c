@@ -132,12 +132,15 @@ static void test_rosenbrock(void **state) {
   fs_context ctx = test_context();
   fs_sparse *pattern = make_band(&ctx, GROUPS);
   double x[3 * GROUPS], f_start, f_end;
-  fs_objective objective = {GROUPS, pattern, NULL, r_value, r_gradient, r_hessian};
+  fs_objective objective = {
+      .n = GROUPS, .pattern = pattern, .value = r_value, .gradient = r_gradient, .hessian = r_hessian};
+  fs_damping damping = {1, 0};
   fs_minimise_options options = {
-      .max_iterations = 200, .gradient_tolerance = 1e-10, .decrease_tolerance = 1e-12, .damping = 1};
+      .max_iterations = 200, .gradient_tolerance = 1e-10, .decrease_tolerance = 1e-12, .damping = &damping};
   fs_minimise_report report;
   int left = 4;
   (void)state;
+  assert_int_equal(fs_solver_create(&ctx, pattern, &objective.solver), FS_OK);
   for (int i = 0; i < 3 * GROUPS; i++) x[i] = i % 2 == 0 ? -1.2 : 1;
   assert_int_equal(fs_minimise(&ctx, &objective, &options, x, &report), FS_OK);
   assert_true(report.stop == FS_MINIMISE_GRADIENT || report.stop == FS_MINIMISE_DECREASE);
@@ -162,6 +165,7 @@ static void test_rosenbrock(void **state) {
   assert_int_equal(fs_minimise(&ctx, &objective, &options, x, &report), FS_OK);
   assert_int_equal(report.stop, FS_MINIMISE_ITERATIONS);
   assert_int_equal(report.n_steps, 2);
+  fs_solver_free(&ctx, objective.solver);
   fs_sparse_free(&ctx, pattern);
 }
 

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: MIT */
+/* Single role: space, functional and fixed dofs become a function of the free dofs. */
+#include "fair/setup.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- scale ------------------------------------------------------------------------------------------------------- */
+
+typedef struct radial {
+  double radius;
+  fs_vec3 position;
+} radial;
+
+static int compare_radius(const void *a, const void *b) {
+  double x = ((const radial *)a)->radius, y = ((const radial *)b)->radius;
+  return (x < y) - (x > y);
+}
+
+static double distance(fs_vec3 a, fs_vec3 b) { return hypot(hypot(a.x - b.x, a.y - b.y), a.z - b.z); }
+
+/* Largest distance of two fixed vertices: pairs are tried outwards in, and no pair within radii r_i + r_j <= best remains. */
+static fs_status fixed_diameter(fs_context *ctx, const fs_space *space, const bool *fixed, double *diameter) {
+  fs_status status = FS_OK;
+  radial *point = NULL;
+  fs_vec3 centre = {0};
+  int32_t n = 0;
+  double best = 0;
+  *diameter = 0;
+  if (fixed == NULL) return FS_OK;
+  FS_ALLOC(ctx, point, space->n_vertices);
+  for (int32_t v = 0; v < space->n_vertices; v++)
+    if (fixed[v]) point[n++].position = space->start[v];
+  for (int32_t i = 0; i < n; i++) {
+    centre.x += point[i].position.x / n;
+    centre.y += point[i].position.y / n;
+    centre.z += point[i].position.z / n;
+  }
+  for (int32_t i = 0; i < n; i++) point[i].radius = distance(point[i].position, centre);
+  qsort(point, (size_t)n, sizeof *point, compare_radius);
+  for (int32_t i = 0; i < n && 2 * point[i].radius > best; i++)
+    for (int32_t j = i + 1; j < n && point[i].radius + point[j].radius > best; j++)
+      best = fmax(best, distance(point[i].position, point[j].position));
+  *diameter = best;
+done:
+  fs_release(ctx, point);
+  return status;
+}
+
+/* ---- from options to a problem ----------------------------------------------------------------------------------- */
+
+enum { NODES_SQUARE = 8, NODES_CAP = 12, MAX_NODES = 32 };
+
+static bool is_anything_fixed(const fs_space *space, const bool *fixed) {
+  for (int32_t d = 0; fixed != NULL && d < space->n_dofs; d++)
+    if (fixed[d]) return true;
+  return false;
+}
+
+static int32_t find_or_add_term(const fs_density **term, int32_t *n, const fs_density *density) {
+  for (int32_t t = 0; t < *n; t++)
+    if (term[t] == density) return t;
+  term[*n] = density;
+  return (*n)++;
+}
+
+static fs_status set_params(fs_context *ctx, const fs_fair_options *options, fs_setup *s) {
+  const fs_param *params = s->functional->params;
+  for (int i = 0; params != NULL && params[i].name != NULL && i < FS_MAX_FUNCTIONAL_PARAMS; i++) {
+    s->param[i] = options->param != NULL ? options->param[i] : params[i].initial;
+    if (!(s->param[i] >= params[i].min && s->param[i] <= params[i].max))
+      return fs_fail(ctx, FS_ERR_ARGUMENT, "parameter %s of %s is %g: %g to %g are possible", params[i].name,
+                     s->functional->name, s->param[i], params[i].min, params[i].max);
+  }
+  return FS_OK;
+}
+
+fs_status fs_setup_create(fs_context *ctx, const fs_space *space, const fs_fair_options *options,
+                          const fs_functional *functional, const fs_vec3 *c, fs_setup *s) {
+  fs_status status = FS_OK;
+  const fs_density *term[FS_MAX_TERMS + 2];
+  int32_t square = options->n_nodes_square, cap = options->n_nodes_cap, n;
+  bool is_fixed = is_anything_fixed(space, options->fixed);
+  *s = (fs_setup){.functional = functional, .term_A = FS_NONE};
+  if (!is_fixed && functional->when_nothing_is_fixed != NULL) s->functional = functional->when_nothing_is_fixed;
+  if (!is_fixed && !s->functional->is_scale_free)
+    return fs_fail(ctx, FS_ERR_UNSUPPORTED, "nothing is fixed, and %s depends on the size or the place: fix vertices",
+                   s->functional->name);
+  if (is_fixed && s->functional->is_scale_free)
+    return fs_fail(ctx, FS_ERR_UNSUPPORTED, "%s is for surfaces of which nothing is fixed", s->functional->name);
+  if (square == 0) square = NODES_SQUARE;
+  if (cap == 0) cap = NODES_CAP;
+  if (square < 1 || square > MAX_NODES || cap < 1 || cap > MAX_NODES)
+    return fs_fail(ctx, FS_ERR_ARGUMENT, "%d nodes on squares and %d in caps: 1 to %d are possible", square, cap,
+                   MAX_NODES);
+  n = s->functional->n_terms;
+  if (n < 1 || n > FS_MAX_TERMS - 2)
+    return fs_fail(ctx, FS_ERR_ARGUMENT, "the functional %s has %d terms: 1 to %d are possible", s->functional->name, n,
+                   FS_MAX_TERMS - 2);
+  for (int32_t t = 0; t < n; t++) {
+    term[t] = s->functional->term[t];
+    if (term[t] == &fs_density_area) s->term_A = t;
+  }
+  s->term_S = find_or_add_term(term, &n, &fs_density_curvature_variation);
+  s->term_Q = find_or_add_term(term, &n, &fs_density_tangential);
+  FS_TRY(set_params(ctx, options, s));
+  s->scale.n_squares = space->n_elements;
+  FS_TRY(fixed_diameter(ctx, space, options->fixed, &s->scale.diameter));
+  FS_TRY(fs_problem_create(ctx, space, n, term, options->fixed, square, cap, c, &s->problem));
+done:
+  return status;
+}
+
+void fs_setup_free(fs_context *ctx, fs_setup *s) {
+  fs_problem_free(ctx, s->problem);
+  s->problem = NULL;
+}
+
+double fs_setup_c(const fs_setup *s) { return s->term_Q < s->functional->n_terms ? s->problem->weight[s->term_Q] : 0; }
+
+/* ---- values ------------------------------------------------------------------------------------------------------ */
+
+/* The functional at problem->c with the derivatives asked for. Where its derivatives by the integrals depend on the integrals,
+   these are computed first. Second derivatives by the integrals are left out of the Hessian: for a functional that is free of
+   scale they vanish on steps that keep the area. */
+static fs_status evaluate(fs_setup *s, fs_order order, double *integral, double *caps, double *f, double *g,
+                          fs_sparse *hessian) {
+  fs_status status = FS_OK;
+  double unused[FS_MAX_TERMS + 2];
+  if (order > FS_VALUE && !s->functional->is_linear) {
+    FS_TRY(fs_problem_evaluate(s->problem, FS_VALUE, integral, NULL, NULL, NULL));
+    s->functional->combine(s->param, &s->scale, integral, f, s->problem->weight);
+  } else if (s->functional->is_linear) {
+    memset(unused, 0, sizeof unused);
+    s->functional->combine(s->param, &s->scale, unused, f, s->problem->weight);
+  }
+  FS_TRY(fs_problem_evaluate(s->problem, order, integral, caps, g, hessian));
+  s->functional->combine(s->param, &s->scale, integral, f, unused);
+done:
+  return status;
+}
+
+fs_status fs_setup_measure(fs_setup *s, double *g, fs_energy *energy) {
+  fs_status status = FS_OK;
+  fs_energy e = {0};
+  double all[FS_MAX_TERMS + 2], caps[FS_MAX_TERMS + 2];
+  FS_TRY(evaluate(s, FS_GRADIENT, all, caps, &e.F, g, NULL));
+  for (int32_t t = 0; t < s->functional->n_terms; t++) {
+    e.integral[t] = all[t];
+    e.integral_caps[t] = caps[t];
+    e.weight[t] = s->problem->weight[t];
+  }
+  e.S = all[s->term_S];
+  e.S_caps = caps[s->term_S];
+  e.Q = all[s->term_Q];
+  for (size_t i = 0; i < 3 * (size_t)s->problem->n_free; i++) e.gradient += g[i] * g[i];
+  e.gradient = sqrt(e.gradient);
+  *energy = e;
+done:
+  return status;
+}
+
+static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, double *g, fs_sparse *hessian) {
+  fs_status status = FS_OK;
+  double integral[FS_MAX_TERMS + 2];
+  fs_problem_set(s->problem, x);
+  FS_TRY(fs_progress(s->problem->ctx, "fairing", 0));
+  FS_TRY(evaluate(s, order, integral, NULL, f, g, hessian));
+done:
+  return status;
+}
+
+static fs_status value(void *self, const double *x, double *f) { return at(self, FS_VALUE, x, f, NULL, NULL); }
+static fs_status gradient(void *self, const double *x, double *f, double *g) {
+  return at(self, FS_GRADIENT, x, f, g, NULL);
+}
+static fs_status hessian(void *self, const double *x, double *f, double *g, fs_sparse *h) {
+  return at(self, FS_HESSIAN, x, f, g, h);
+}
+
+/* The gradient of the area alone. */
+static fs_status normal(void *self, const double *x, double *v) {
+  fs_setup *s = self;
+  fs_problem *p = s->problem;
+  double kept[FS_MAX_TERMS + 2];
+  fs_status status;
+  memcpy(kept, p->weight, sizeof kept);
+  memset(p->weight, 0, sizeof p->weight);
+  p->weight[s->term_A] = 1;
+  fs_problem_set(p, x);
+  status = fs_problem_evaluate(p, FS_GRADIENT, NULL, NULL, v, NULL);
+  memcpy(p->weight, kept, sizeof kept);
+  return status;
+}
+
+fs_objective fs_setup_objective(fs_setup *s, fs_solver *solver) {
+  return (fs_objective){.n = s->problem->n_free,
+                        .pattern = s->problem->pattern,
+                        .solver = solver,
+                        .self = s,
+                        .value = value,
+                        .gradient = gradient,
+                        .hessian = hessian,
+                        .normal = s->functional->is_scale_free ? normal : NULL};
+}
+
+fs_status fs_setup_restore_area(fs_setup *s, double area) {
+  fs_status status = FS_OK;
+  fs_problem *p = s->problem;
+  const fs_space *space = p->space;
+  double integral[FS_MAX_TERMS + 2], factor;
+  fs_vec3 centre = {0};
+  FS_TRY(fs_problem_evaluate(p, FS_VALUE, integral, NULL, NULL, NULL));
+  factor = sqrt(area / integral[s->term_A]);
+  for (int32_t v = 0; v < space->n_vertices; v++) {
+    centre.x += p->c[v].x / space->n_vertices;
+    centre.y += p->c[v].y / space->n_vertices;
+    centre.z += p->c[v].z / space->n_vertices;
+  }
+  for (int32_t d = 0; d < space->n_dofs; d++) { /* dofs beyond the vertices are offsets */
+    fs_vec3 o = d < space->n_vertices ? centre : (fs_vec3){0};
+    p->c[d].x = o.x + factor * (p->c[d].x - o.x);
+    p->c[d].y = o.y + factor * (p->c[d].y - o.y);
+    p->c[d].z = o.z + factor * (p->c[d].z - o.z);
+  }
+done:
+  return status;
+}
