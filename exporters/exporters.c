@@ -8,10 +8,18 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const fs_exporter fs_exporter_povray;
+extern const fs_exporter fs_exporter_povray, fs_exporter_openscad, fs_exporter_threemf;
 
-const fs_exporter *const fs_exporters[] = {&fs_exporter_povray, &fs_exporter_obj, &fs_exporter_off,
-                                           &fs_exporter_ply,    &fs_exporter_stl, NULL};
+const fs_exporter *const fs_exporters[] = {&fs_exporter_povray,
+                                           &fs_exporter_obj,
+                                           &fs_exporter_off,
+                                           &fs_exporter_ply,
+                                           &fs_exporter_stl,
+                                           &fs_exporter_openscad,
+#ifdef FS_HAVE_THREEMF
+                                           &fs_exporter_threemf,
+#endif
+                                           NULL};
 
 enum { MAX_PARAMS = 32, STEM_SIZE = 256 };
 
@@ -105,6 +113,7 @@ fs_status fs_export_file(fs_context *ctx, const fs_model *model, const double *p
   if (exporter == NULL) return fail_unknown(ctx, extension);
   take_stem(path, stem);
   if (named.name == NULL) named.name = stem;
+  named.file = stem;
   status = fs_files_create(ctx, path, &files, &output);
   if (status != FS_OK) return status;
   status = fs_export(ctx, &named, exporter, param, &output);

@@ -11,8 +11,10 @@ static void write_net(fs_writer *writer, const fs_mesh *mesh) {
   }
   for (int32_t f = 0; f < mesh->n_faces; f++) {
     fs_writer_text(writer, "f");
-    for (int32_t h = mesh->face_start[f]; h < mesh->face_start[f + 1]; h++)
-      fs_writer_printf(writer, " %d", mesh->origin[h] + 1);
+    for (int32_t h = mesh->face_start[f]; h < mesh->face_start[f + 1]; h++) {
+      fs_writer_text(writer, " ");
+      fs_writer_integer(writer, mesh->origin[h] + (int64_t)1);
+    }
     fs_writer_text(writer, "\n");
   }
 }
@@ -29,8 +31,14 @@ static void write_triangles(fs_writer *writer, const fs_triangles *t) {
     fs_writer_text(writer, "\n");
   }
   for (int32_t i = 0; i < t->n_triangles; i++) {
-    int32_t a = t->corner[3 * i] + 1, b = t->corner[3 * i + 1] + 1, c = t->corner[3 * i + 2] + 1;
-    fs_writer_printf(writer, "f %d//%d %d//%d %d//%d\n", a, a, b, b, c, c);
+    fs_writer_text(writer, "f");
+    for (size_t j = 3 * (size_t)i; j < 3 * (size_t)i + 3; j++) {
+      fs_writer_text(writer, " ");
+      fs_writer_integer(writer, t->corner[j] + (int64_t)1);
+      fs_writer_text(writer, "//");
+      fs_writer_integer(writer, t->corner[j] + (int64_t)1);
+    }
+    fs_writer_text(writer, "\n");
   }
 }
 

@@ -21,9 +21,11 @@ static void write_net(fs_writer *writer, const fs_model *model) {
   write_start(writer, model, mesh->n_vertices, mesh->n_faces);
   write_positions(writer, mesh->n_vertices, mesh->position);
   for (int32_t f = 0; f < mesh->n_faces; f++) {
-    fs_writer_printf(writer, "%d", fs_mesh_face_size(mesh, f));
-    for (int32_t h = mesh->face_start[f]; h < mesh->face_start[f + 1]; h++)
-      fs_writer_printf(writer, " %d", mesh->origin[h]);
+    fs_writer_integer(writer, fs_mesh_face_size(mesh, f));
+    for (int32_t h = mesh->face_start[f]; h < mesh->face_start[f + 1]; h++) {
+      fs_writer_text(writer, " ");
+      fs_writer_integer(writer, mesh->origin[h]);
+    }
     fs_writer_text(writer, "\n");
   }
 }
@@ -31,8 +33,14 @@ static void write_net(fs_writer *writer, const fs_model *model) {
 static void write_triangles(fs_writer *writer, const fs_model *model, const fs_triangles *t) {
   write_start(writer, model, t->n_vertices, t->n_triangles);
   write_positions(writer, t->n_vertices, t->position);
-  for (int32_t i = 0; i < t->n_triangles; i++)
-    fs_writer_printf(writer, "3 %d %d %d\n", t->corner[3 * i], t->corner[3 * i + 1], t->corner[3 * i + 2]);
+  for (int32_t i = 0; i < t->n_triangles; i++) {
+    fs_writer_text(writer, "3");
+    for (size_t j = 3 * (size_t)i; j < 3 * (size_t)i + 3; j++) {
+      fs_writer_text(writer, " ");
+      fs_writer_integer(writer, t->corner[j]);
+    }
+    fs_writer_text(writer, "\n");
+  }
 }
 
 static fs_status write(fs_context *ctx, const fs_model *model, const double *param, const fs_output *output) {

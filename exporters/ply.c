@@ -1,7 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: Stanford PLY, binary little-endian or ascii. A control net keeps its polygons and its doubles; a surface
-   becomes triangles with doubles for positions and floats for the exact normals at their corners. */
+   becomes triangles with doubles for positions and floats for the exact normals at their corners, and for the values of the
+   measure to colour by. */
 #include "writer.h"
+#include "base/base.h"
+#include "measured.h"
+
+#include <float.h>
+#include <math.h>
 
 enum { STEPS, FORMAT };
 enum { BINARY, ASCII };
@@ -23,16 +29,17 @@ static void write_double(ply *p, double number) {
     fs_writer_float64(&p->writer, number);
 }
 
+/* 9 digits tell all floats apart. */
 static void write_float(ply *p, double number) {
   if (p->is_ascii)
-    fs_writer_number(&p->writer, number);
+    fs_writer_rounded(&p->writer, number, 9);
   else
     fs_writer_float32(&p->writer, number);
 }
 
 static void write_int(ply *p, int32_t number) {
   if (p->is_ascii)
-    fs_writer_printf(&p->writer, "%d", number);
+    fs_writer_integer(&p->writer, number);
   else
     fs_writer_uint32(&p->writer, (uint32_t)number);
 }
@@ -52,15 +59,25 @@ static void write_position(ply *p, fs_vec3 position) {
   write_double(p, position.z);
 }
 
+/* The measure stands under its own name and again as "quality", by which viewers colour. */
+static void write_measure_header(fs_writer *writer, const fs_measure *measure) {
+  fs_writer_printf(writer, "property float %s\nproperty float quality\n", measure->name);
+}
+
 /* normals: whether the vertices have them. Sizes of faces are bytes where they fit, as most readers expect. */
 static void write_header(ply *p, const fs_model *model, int32_t n_vertices, bool normals, int32_t n_faces,
                          bool is_byte) {
   fs_writer *writer = &p->writer;
   fs_writer_printf(writer, "ply\nformat %s 1.0\ncomment ", p->is_ascii ? "ascii" : "binary_little_endian");
   fs_writer_line_text(writer, model->made_with != NULL ? model->made_with : "fairsurf");
+  if (normals && model->colour != NULL) {
+    fs_writer_printf(writer, "\ncomment %s and quality: ", model->colour->name);
+    fs_writer_line_text(writer, model->colour->summary != NULL ? model->colour->summary : model->colour->name);
+  }
   fs_writer_printf(writer, "\nelement vertex %d\n", n_vertices);
   fs_writer_text(writer, "property double x\nproperty double y\nproperty double z\n");
   if (normals) fs_writer_text(writer, "property float nx\nproperty float ny\nproperty float nz\n");
+  if (normals && model->colour != NULL) write_measure_header(writer, model->colour);
   fs_writer_printf(writer, "element face %d\nproperty list %s int vertex_indices\nend_header\n", n_faces,
                    is_byte ? "uchar" : "int");
 }
@@ -84,7 +101,8 @@ static void write_net(ply *p, const fs_model *model) {
   }
 }
 
-static void write_triangles(ply *p, const fs_model *model, const fs_triangles *t) {
+/* value[n_vertices] of the measure, or NULL. Where the measure has none, or one too large, the file says 0: readers know no NaN. */
+static void write_triangles(ply *p, const fs_model *model, const fs_triangles *t, const double *value) {
   write_header(p, model, t->n_vertices, true, t->n_triangles, true);
   for (int32_t v = 0; v < t->n_vertices; v++) {
     write_position(p, t->position[v]);
@@ -94,6 +112,10 @@ static void write_triangles(ply *p, const fs_model *model, const fs_triangles *t
     write_float(p, t->normal[v].y);
     separate(p, " ");
     write_float(p, t->normal[v].z);
+    for (int32_t k = 0; value != NULL && k < 2; k++) {
+      separate(p, " ");
+      write_float(p, fabs(value[v]) <= FLT_MAX ? value[v] : 0);
+    }
     separate(p, "\n");
   }
   for (int32_t i = 0; i < t->n_triangles; i++) {
@@ -109,15 +131,21 @@ static void write_triangles(ply *p, const fs_model *model, const fs_triangles *t
 static fs_status write(fs_context *ctx, const fs_model *model, const double *param, const fs_output *output) {
   ply p = {.is_ascii = param[FORMAT] == ASCII};
   fs_triangles *triangles = NULL;
+  double *value = NULL;
   fs_status status = FS_OK;
-  if (model->surface != NULL) status = fs_tessellate(ctx, model->surface, (int32_t)param[STEPS], &triangles);
-  if (status != FS_OK) return status;
+  if (model->surface != NULL) FS_TRY(fs_tessellate(ctx, model->surface, (int32_t)param[STEPS], &triangles));
+  if (triangles != NULL && model->colour != NULL) {
+    FS_ALLOC(ctx, value, triangles->n_vertices);
+    FS_TRY(fs_measure_vertices(ctx, model->surface, model->colour, triangles, value));
+  }
   fs_writer_start(&p.writer, ctx, output, "ply");
   if (triangles != NULL)
-    write_triangles(&p, model, triangles);
+    write_triangles(&p, model, triangles, value);
   else
     write_net(&p, model);
   status = fs_writer_finish(&p.writer);
+done:
+  fs_release(ctx, value);
   fs_triangles_free(ctx, triangles);
   return status;
 }
@@ -125,7 +153,8 @@ static fs_status write(fs_context *ctx, const fs_model *model, const double *par
 const fs_exporter fs_exporter_ply = {
     .name = "ply",
     .extension = "ply",
-    .summary = "Stanford PLY: the control net with its polygons, or the surface as triangles with normals",
+    .summary =
+        "Stanford PLY: the control net with its polygons, or the surface as triangles with normals and a measure",
     .params = (const fs_param[]){FS_PARAM_STEPS,
                                  {.name = "format",
                                   .summary = "binary: little-endian",

@@ -13,8 +13,9 @@ enum { FORM_BICUBIC, FORM_MESH2 };
 static const fs_param params[] = {
     [SCENE] = {"scene", "how the scene shows the surface; curvature implies mesh2", 0, 0, 3, scene_names},
     [FORM] = {"pov", "what the object consists of", FORM_BICUBIC, 0, 1, form_names},
-    [STEPS] = {"steps", "each patch is drawn as 2^steps x 2^steps cells; 0: 4 up to 1500 patches, then fewer, more for caps",
-               0, 0, 8, NULL},
+    [STEPS] = {"steps",
+               "each patch is drawn as 2^steps x 2^steps cells; 0: 4 up to 1500 patches, then fewer, more for caps", 0,
+               0, 8, NULL},
     [TOLERANCE] = {"tolerance",
                    "largest distance of bicubic pieces from patches of higher degree, as part of the box diagonal",
                    1e-4, 1e-9, 1, NULL},

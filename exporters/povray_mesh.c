@@ -4,6 +4,7 @@
    Faces are written clockwise from outside: where the three normals of a triangle are equal the renderer takes the
    outside from the order of its corners, opposite to the usual sense; where they differ, from the normals. */
 #include "povray.h"
+#include "measured.h"
 #include "base/base.h"
 #include "math/vec3.h"
 
@@ -52,31 +53,11 @@ done:
   return status;
 }
 
-/* value[n_vertices] of the measure with the initial values of its parameters */
-static fs_status evaluate(fs_context *ctx, const fs_surface *surface, const fs_measure *colour, const fs_triangles *t,
-                          double *value) {
-  fs_status status = FS_OK;
-  fs_vec3 x[FS_JET_SIZE];
-  double *param = NULL;
-  size_t n_params = 0;
-  while (colour->params != NULL && colour->params[n_params].name != NULL) n_params++;
-  FS_ALLOC(ctx, param, n_params);
-  for (size_t k = 0; k < n_params; k++) param[k] = colour->params[k].initial;
-  for (int32_t k = 0; k < t->n_vertices; k++) {
-    const double *uv = t->vertex_uv + 2 * (size_t)k;
-    fs_surface_evaluate(surface, t->vertex_patch[k], uv[0], uv[1], x);
-    value[k] = colour->value(param, x);
-  }
-done:
-  fs_release(ctx, param);
-  return status;
-}
-
 static void write_vectors(fs_writer *w, const char *keyword, const fs_vec3 *vector, int32_t n, int digits) {
   fs_writer_printf(w, "%s { %d,\n", keyword, (int)n);
   for (int32_t k = 0; k < n; k++) {
     fs_povray_vector(w, vector[k], digits);
-    fs_writer_printf(w, k + 1 < n ? ",\n" : "\n}\n");
+    fs_writer_text(w, k + 1 < n ? ",\n" : "\n}\n");
   }
 }
 
@@ -85,9 +66,9 @@ static void write_colours(fs_writer *w, const double *value, int32_t n, double l
   fs_writer_printf(w, "uv_vectors { %d,\n", (int)n);
   for (int32_t k = 0; k < n; k++) {
     double u = (value[k] - low) / (high - low);
-    fs_writer_printf(w, "<");
+    fs_writer_text(w, "<");
     fs_povray_number(w, isnan(u) ? 0.5 : fmin(fmax(u, 0.001), 0.999), 5);
-    fs_writer_printf(w, k + 1 < n ? ",0.5>,\n" : ",0.5>\n}\n");
+    fs_writer_text(w, k + 1 < n ? ",0.5>,\n" : ",0.5>\n}\n");
   }
 }
 
@@ -95,8 +76,13 @@ static void write_faces(fs_writer *w, const fs_triangles *t) {
   fs_writer_printf(w, "face_indices { %d,\n", (int)t->n_triangles);
   for (int32_t k = 0; k < t->n_triangles; k++) {
     const int32_t *corner = t->corner + 3 * (size_t)k;
-    fs_writer_printf(w, "<%d,%d,%d>%s", (int)corner[0], (int)corner[2], (int)corner[1],
-                     k + 1 < t->n_triangles ? ",\n" : "\n}\n");
+    fs_writer_text(w, "<");
+    fs_writer_integer(w, corner[0]);
+    fs_writer_text(w, ",");
+    fs_writer_integer(w, corner[2]);
+    fs_writer_text(w, ",");
+    fs_writer_integer(w, corner[1]);
+    fs_writer_text(w, k + 1 < t->n_triangles ? ">,\n" : ">\n}\n");
   }
 }
 
@@ -127,7 +113,7 @@ fs_status fs_povray_write_mesh(fs_context *ctx, const fs_povray_model *model, co
   FS_TRY(fs_tessellate(ctx, surface, (int32_t)1 << model->steps, &t));
   if (colour != NULL) {
     FS_ALLOC(ctx, value, t->n_vertices);
-    FS_TRY(evaluate(ctx, surface, colour, t, value));
+    FS_TRY(fs_measure_vertices(ctx, surface, colour, t, value));
     FS_TRY(find_range(ctx, value, (size_t)t->n_vertices, &low, &high));
   }
   fs_writer_start(w, ctx, output, "inc");

@@ -64,7 +64,7 @@ static void write_text(fs_writer *w, const char *text, const char *name) {
 fs_status fs_povray_write_scene(fs_context *ctx, const fs_povray_model *model, fs_povray_scene scene,
                                 const fs_output *output) {
   fs_writer writer;
-  const char *stem = model->model->name;
+  const char *stem = model->model->file != NULL ? model->model->file : model->model->name;
   fs_writer_start(&writer, ctx, output, "pov");
   write_text(&writer, "// $: a smooth surface made by fairsurf; render with +W960 +H720 +A0.1\n", model->name);
   write_text(&writer, "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n", model->name);

@@ -35,7 +35,7 @@ static void write_binary(fs_writer *writer, const fs_triangles *t) {
   fs_writer_bytes(writer, header, sizeof header);
   fs_writer_uint32(writer, (uint32_t)t->n_triangles);
   for (int32_t i = 0; i < t->n_triangles; i++) {
-    const int32_t *corner = t->corner + 3 * i;
+    const int32_t *corner = t->corner + 3 * (size_t)i;
     fs_vec3 a = t->position[corner[0]], b = t->position[corner[1]], c = t->position[corner[2]];
     write_float3(writer, facet_normal(a, b, c));
     write_float3(writer, a);
@@ -56,7 +56,7 @@ static void write_ascii(fs_writer *writer, const char *name, const fs_triangles 
   fs_writer_line_text(writer, name);
   fs_writer_text(writer, "\n");
   for (int32_t i = 0; i < t->n_triangles; i++) {
-    const int32_t *corner = t->corner + 3 * i;
+    const int32_t *corner = t->corner + 3 * (size_t)i;
     fs_vec3 a = t->position[corner[0]], b = t->position[corner[1]], c = t->position[corner[2]];
     write_ascii_vec3(writer, "facet normal ", facet_normal(a, b, c));
     fs_writer_text(writer, "  outer loop\n");

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: buffered writing of text and little-endian numbers to a sink, whatever the locale and the machine. */
 #include "writer.h"
+#include "decimal.h"
 #include "base/base.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void fail(fs_writer *writer, fs_status status, const char *text) {
@@ -72,30 +72,29 @@ void fs_writer_line_text(fs_writer *writer, const char *text) {
   }
 }
 
-/* Whatever stands between the digits of the locale's number is its decimal point. */
-static void write_digits(fs_writer *writer, const char *text) {
-  size_t run = 0;
-  for (; *text != '\0'; text++) {
-    if (strchr("0123456789+-e", *text) != NULL) {
-      fs_writer_bytes(writer, text, 1);
-      run = 0;
-    } else if (run++ == 0) {
-      fs_writer_bytes(writer, ".", 1);
-    }
-  }
+/* Room for so many bytes at buffer + used; whoever fills it adds to used. */
+static char *make_room(fs_writer *writer, size_t size) {
+  if (sizeof writer->buffer - writer->used < size) flush(writer);
+  if (writer->status != FS_OK) writer->used = 0; /* nobody will see what is put there */
+  return writer->buffer + writer->used;
+}
+
+static bool is_number(fs_writer *writer, double number) {
+  if (!isfinite(number)) fail(writer, FS_ERR_NUMERIC, "a number to write is not finite");
+  return isfinite(number);
 }
 
 void fs_writer_number(fs_writer *writer, double number) {
-  char text[64];
-  if (!isfinite(number)) {
-    fail(writer, FS_ERR_NUMERIC, "a number to write is not finite");
-    return;
-  }
-  for (int digits = 15; digits <= 17; digits++) {
-    snprintf(text, sizeof text, "%.*g", digits, number);
-    if (strtod(text, NULL) == number) break;
-  }
-  write_digits(writer, text);
+  if (is_number(writer, number)) writer->used += fs_decimal_shortest(make_room(writer, FS_DECIMAL_SIZE), number);
+}
+
+void fs_writer_rounded(fs_writer *writer, double number, int32_t digits) {
+  if (!is_number(writer, number)) return;
+  writer->used += fs_decimal_rounded(make_room(writer, FS_DECIMAL_SIZE), number == 0 ? 0 : number, digits);
+}
+
+void fs_writer_integer(fs_writer *writer, int64_t number) {
+  writer->used += fs_decimal_integer(make_room(writer, FS_DECIMAL_SIZE), number);
 }
 
 void fs_writer_vec3(fs_writer *writer, fs_vec3 p, const char *separator) {
@@ -104,6 +103,14 @@ void fs_writer_vec3(fs_writer *writer, fs_vec3 p, const char *separator) {
   fs_writer_number(writer, p.y);
   fs_writer_text(writer, separator);
   fs_writer_number(writer, p.z);
+}
+
+void fs_writer_rounded_vec3(fs_writer *writer, fs_vec3 p, const char *separator, int32_t digits) {
+  fs_writer_rounded(writer, p.x, digits);
+  fs_writer_text(writer, separator);
+  fs_writer_rounded(writer, p.y, digits);
+  fs_writer_text(writer, separator);
+  fs_writer_rounded(writer, p.z, digits);
 }
 
 static void write_little_endian(fs_writer *writer, uint64_t bits, size_t size) {

@@ -28,10 +28,14 @@ void fs_writer_printf(fs_writer *writer, const char *format, ...) FS_PRINTF(2, 3
 /* Any text in one line: control characters become spaces. */
 void fs_writer_line_text(fs_writer *writer, const char *text);
 
-/* The shortest of 15, 16, 17 digits that reads back as the same double. FS_ERR_NUMERIC if it is not finite. */
+/* The shortest text that reads back as the same double. FS_ERR_NUMERIC if it is not finite. */
 void fs_writer_number(fs_writer *writer, double number);
+/* As "%.{digits}g" does in the C locale, with 0 for -0. FS_ERR_NUMERIC if it is not finite. */
+void fs_writer_rounded(fs_writer *writer, double number, int32_t digits);
+void fs_writer_integer(fs_writer *writer, int64_t number);
 /* Three of them with separator between. */
 void fs_writer_vec3(fs_writer *writer, fs_vec3 p, const char *separator);
+void fs_writer_rounded_vec3(fs_writer *writer, fs_vec3 p, const char *separator, int32_t digits);
 
 /* Little-endian. A float that is not finite, or too large for single precision, is FS_ERR_NUMERIC. */
 void fs_writer_uint8(fs_writer *writer, uint8_t number);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-static fs_status check_valence(fs_context *ctx, int32_t valence) {
+fs_status fs_g2cap_check_valence(fs_context *ctx, int32_t valence) {
   if (valence >= FS_G2CAP_MIN_VALENCE && valence <= FS_G2CAP_MAX_VALENCE && valence != 4) return FS_OK;
   return fs_fail(ctx, FS_ERR_ARGUMENT, "a cap has valence 3 or 5 to %d, not %d", FS_G2CAP_MAX_VALENCE, valence);
 }
@@ -26,8 +26,20 @@ done:
   return status;
 }
 
-/* Scales the chart [100][2] to the area 1. */
-static fs_status scale_chart(fs_context *ctx, double *chart) {
+fs_status fs_g2cap_sector(fs_context *ctx, int32_t valence, double *net, double *local, double *chart) {
+  fs_status status = FS_OK;
+  fs_g2cap_domain domain;
+  fs_g2cap_junction junction;
+  double eigenvalue;
+  fs_g2cap_domain_net(valence, &eigenvalue, net);
+  fs_g2cap_domain_set(valence, eigenvalue, net, &domain);
+  FS_TRY(fs_g2cap_junction_solve(ctx, &domain, &junction));
+  FS_TRY(fs_g2cap_local_patches(ctx, &domain, &junction, local, chart));
+done:
+  return status;
+}
+
+fs_status fs_g2cap_scale_chart(fs_context *ctx, double *chart) {
   double area;
   fs_status status = fs_g2cap_area(ctx, chart, &area);
   if (status != FS_OK) return status;
@@ -40,20 +52,15 @@ fs_status fs_g2cap_create(fs_context *ctx, int32_t valence, const fs_g2cap_optio
   fs_status status = FS_OK;
   fs_g2cap *cap = NULL;
   fs_g2cap_ritz *ritz = NULL;
-  fs_g2cap_domain domain;
-  fs_g2cap_junction junction;
-  double *local = NULL, eigenvalue;
-  FS_TRY(check_valence(ctx, valence));
+  double *local = NULL;
+  FS_TRY(fs_g2cap_check_valence(ctx, valence));
   FS_TRY(allocate_cap(ctx, valence, &cap));
   FS_ALLOC(ctx, local, FS_G2CAP_POINTS * FS_G2CAP_OUTER);
-  fs_g2cap_domain_net(valence, &eigenvalue, cap->net);
-  fs_g2cap_domain_set(valence, eigenvalue, cap->net, &domain);
-  FS_TRY(fs_g2cap_junction_solve(ctx, &domain, &junction));
-  FS_TRY(fs_g2cap_local_patches(ctx, &domain, &junction, local, cap->chart));
+  FS_TRY(fs_g2cap_sector(ctx, valence, cap->net, local, cap->chart));
   FS_TRY(fs_g2cap_ritz_create(ctx, valence, options != NULL ? options : &defaults, local, cap->chart, &ritz));
   fs_g2cap_matrix(ritz, cap->matrix);
   for (int32_t i = 0; i < cap->n_vertices; i++) cap->trace_energy += ritz->energy[i * (cap->n_vertices + 1)];
-  FS_TRY(scale_chart(ctx, cap->chart));
+  FS_TRY(fs_g2cap_scale_chart(ctx, cap->chart));
   *out = cap;
   cap = NULL;
 done:

@@ -35,4 +35,22 @@ void fs_g2cap_free(fs_context *ctx, fs_g2cap *cap); /* NULL is allowed */
 /* The same with default options, made once and kept in the context until fs_context_clear. */
 fs_status fs_g2cap_get(fs_context *ctx, int32_t valence, const fs_g2cap **cap);
 
+/* The inner functions of a cap: they vanish with first and second derivatives at its rim, so that adding them to what
+   the matrix gives keeps the contact. Orthonormal in the energy, with the plane domain scaled to one unit of area per
+   sector, and orthogonal to the functions of the matrix: coefficients c add the energy |c|^2. */
+enum { FS_G2CAP_LOCAL = 16 };
+typedef struct fs_g2cap_inner {
+  int32_t valence, n_smooth;
+  double *smooth; /* [valence][100][n_smooth]: functions of the whole cap; Bezier points in sector s, rows as in the
+                     matrix of fs_g2cap */
+  double *local; /* [100][16]: functions of one sector that vanish in all others, the same in every sector */
+} fs_g2cap_inner;
+
+/* The inner functions of valence 3, 5 .. 24 (FS_ERR_ARGUMENT otherwise). */
+fs_status fs_g2cap_inner_create(fs_context *ctx, int32_t valence, fs_g2cap_inner **inner);
+void fs_g2cap_inner_free(fs_context *ctx, fs_g2cap_inner *inner); /* NULL is allowed */
+
+/* The same, made once and kept in the context until fs_context_clear. */
+fs_status fs_g2cap_get_inner(fs_context *ctx, int32_t valence, const fs_g2cap_inner **inner);
+
 #endif

@@ -8,11 +8,13 @@
      d^(d-n)_u d^n_s r = (d-n)! n! a_n,  n <= 2
 
    The functions phi vanish on the ring. They are the 15 monomials, and the splines of degree d = 3 and 4 over the fan
-   of spokes. A spline changes by c_i l_i^3 (d = 3) or l_i^3 (c_i l_i + c'_i m_i) (d = 4) at spoke i, with
+   of spokes. A spline changes by c_i l_i^3 (d = 3) or l_i^3 (c_i m_i + c'_i l_i) (d = 4) at spoke i, with
 
      l_i = -sin t_i x + cos t_i y,  m_i = cos t_i x + sin t_i y,  t_i = 2 pi i/k,
 
-   and c is such that all changes add up to 0: an orthonormal basis of that null space is taken.                     */
+   and c is such that all changes add up to 0: an orthonormal basis of that null space is taken, the only one whose
+   leading square block is upper triangular with positive diagonal. Coefficients of inner functions, once written to a
+   file, must mean the same functions everywhere.                                                                    */
 #include "space/g2cap_parts.h"
 #include "math/bernstein.h"
 #include "math/dense.h"
@@ -86,11 +88,11 @@ int32_t fs_g2cap_n_functions(int32_t valence) {
   return FS_G2CAP_MONOMIALS + n_splines(valence, 3) + n_splines(valence, 4);
 }
 
-/* out [degree + 1] = l^3 (degree 3), l^4 or l^3 m (degree 4, which = 0, 1), for the direction t. */
+/* out [degree + 1] = l^3 (degree 3), l^3 m or l^4 (degree 4, which = 0, 1), for the direction t. */
 static void spoke_change(int32_t degree, int32_t which, double t, double *out) {
   const double m[2] = {cos(t), sin(t)}, l[2] = {-sin(t), cos(t)};
   double power[5] = {0};
-  power[which == 1 ? degree - 1 : degree] = 1; /* y^degree or x y^(degree-1), with x = m and y = l put in */
+  power[3 + which] = 1; /* y^3, x y^3 or y^4, with x = m and y = l put in */
   fs_g2cap_substitute(degree, power, m, l, out);
 }
 
@@ -129,6 +131,44 @@ static void add_splines(int32_t valence, int32_t degree, const double *change, c
       }
 }
 
+static double dot(int32_t n, const double *a, int32_t a_stride, const double *b, int32_t b_stride) {
+  double sum = 0;
+  for (int32_t i = 0; i < n; i++) sum += a[i * a_stride] * b[i * b_stride];
+  return sum;
+}
+
+/* basis [n][n_columns] = Q^T basis with Q R = its first n columns, by the Gram-Schmidt process, carried out twice for
+   each column [Golub Van Loan 2013, section 5.2]. The trailing columns that are left out belong to neighbouring spokes
+   in different directions, as many as the rank: they are independent, so R is regular. */
+static fs_status fix_basis(fs_context *ctx, int32_t n, int32_t n_columns, double *basis) {
+  fs_status status = FS_OK;
+  double *Q = NULL, *given = NULL; /* [n][n], [n][n_columns] */
+  FS_ALLOC(ctx, Q, n * n);
+  FS_ALLOC(ctx, given, n * n_columns);
+  memcpy(given, basis, (size_t)(n * n_columns) * sizeof *given);
+  for (int32_t column = 0; column < n; column++) {
+    double *q = Q + column, length;
+    for (int32_t i = 0; i < n; i++) q[i * n] = given[i * n_columns + column];
+    for (int32_t pass = 0; pass < 2; pass++)
+      for (int32_t before = 0; before < column; before++) {
+        double part = dot(n, Q + before, n, q, n);
+        for (int32_t i = 0; i < n; i++) q[i * n] -= part * Q[i * n + before];
+      }
+    length = sqrt(dot(n, q, n, q, n));
+    if (!(length > 1e-7)) {
+      status = fs_fail(ctx, FS_ERR_NUMERIC, "the splines of a cap depend on each other at column %d of %d", column, n);
+      goto done;
+    }
+    for (int32_t i = 0; i < n; i++) q[i * n] /= length;
+  }
+  memset(basis, 0, (size_t)(n * n_columns) * sizeof *basis);
+  fs_dense_add_product_transposed(n, n, n_columns, 1, Q, n, given, n_columns, basis, n_columns);
+done:
+  fs_release(ctx, Q);
+  fs_release(ctx, given);
+  return status;
+}
+
 static fs_status add_degree(fs_context *ctx, int32_t valence, int32_t degree, int32_t first, int32_t n_functions,
                             double *fan) {
   fs_status status = FS_OK;
@@ -142,6 +182,7 @@ static fs_status add_degree(fs_context *ctx, int32_t valence, int32_t degree, in
     for (int32_t i = 0; i <= degree; i++) change[i * n_columns + column] = a[i];
   }
   FS_TRY(fs_dense_null_space(ctx, degree + 1, n_columns, change, fan_rank(valence, degree), basis));
+  FS_TRY(fix_basis(ctx, n_splines(valence, degree), n_columns, basis));
   add_splines(valence, degree, change, basis, first, n_functions, fan);
 done:
   fs_release(ctx, change);

@@ -22,7 +22,7 @@ enum {
   ROWS = N + 1,
   OUTER = FS_G2CAP_OUTER,
   CHARTED = OUTER + 2, /* the outer functions and the two coordinates of the chart */
-  LOCAL = OUTER + FS_G2CAP_INNER,
+  LOCAL = FS_G2CAP_SECTOR,
   FIRST_INNER = 3, /* the inner functions have Bezier indices 3 .. 6 */
   DERIVATIVES = 9,
   DEFAULT_NODES = 32

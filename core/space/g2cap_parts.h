@@ -24,7 +24,8 @@ enum {
   FS_G2CAP_VERTICES = 15,  /* that act on a sector directly */
   FS_G2CAP_MONOMIALS = 15, /* x^(d-j) y^j, d <= 4, in order of d, then j */
   FS_G2CAP_OUTER = 30,     /* both together: functions that act on the sides of a sector */
-  FS_G2CAP_INNER = 16      /* functions that do not: B_a^9(u) B_b^9(v), a, b = 3 .. 6 */
+  FS_G2CAP_INNER = 16,     /* functions that do not: B_a^9(u) B_b^9(v), a, b = 3 .. 6 */
+  FS_G2CAP_SECTOR = FS_G2CAP_OUTER + FS_G2CAP_INNER
 };
 
 /* ---- g2cap_form.c: homogeneous polynomials sum_j a_j x^(d-j) y^j ---- */
@@ -102,6 +103,17 @@ fs_status fs_g2cap_local_patches(fs_context *ctx, const fs_g2cap_domain *domain,
 int32_t fs_g2cap_n_functions(int32_t valence);
 fs_status fs_g2cap_fan(fs_context *ctx, int32_t valence, double *fan);
 
+/* ---- g2cap.c: the plane domain and the functions of a sector ---- */
+
+/* FS_ERR_ARGUMENT unless there are caps of this valence. */
+fs_status fs_g2cap_check_valence(fs_context *ctx, int32_t valence);
+
+/* net [6k+1][2], local [100][30], chart [100][2], from the valence alone. */
+fs_status fs_g2cap_sector(fs_context *ctx, int32_t valence, double *net, double *local, double *chart);
+
+/* Scales the chart [100][2] to the area 1. */
+fs_status fs_g2cap_scale_chart(fs_context *ctx, double *chart);
+
 /* ---- g2cap_form_matrix.c: the energy of one sector ---- */
 
 /* form [46][46]: integrals of <grad Laplace f, grad Laplace g> over sector 0, f and g among the 30 outer, then 16 inner
@@ -113,6 +125,13 @@ fs_status fs_g2cap_form_matrix(fs_context *ctx, const fs_g2cap_options *options,
 fs_status fs_g2cap_area(fs_context *ctx, const double *chart, double *area);
 
 /* ---- g2cap_ritz.c: the minimum of the energy ---- */
+
+/* Number of the Bezier point of the inner function i = a + 4 b, a, b = 0 .. 3. */
+static inline int32_t fs_g2cap_inner_point(int32_t i) { return 3 + i % 4 + (FS_G2CAP_DEGREE + 1) * (3 + i / 4); }
+
+/* Adds to each of the outer functions, local [100][30], the inner ones that make its energy least. The upper left
+   [30][30] of form [46][46] becomes their form matrix, the lower right [16][16] the R of form_ii = R^T R. */
+fs_status fs_g2cap_eliminate_inner(fs_context *ctx, double *form, double *local);
 
 typedef struct fs_g2cap_ritz {
   int32_t valence, n_vertices;

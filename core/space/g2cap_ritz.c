@@ -26,14 +26,13 @@ static const double TOLERANCE = 1e-8; /* of the Bezier points, between sectors *
 enum {
   OUTER = FS_G2CAP_OUTER,
   INNER = FS_G2CAP_INNER,
-  LOCAL = OUTER + INNER,
+  LOCAL = FS_G2CAP_SECTOR,
   VERTICES = FS_G2CAP_VERTICES,
   MONOMIALS = FS_G2CAP_MONOMIALS,
   POINTS = FS_G2CAP_POINTS
 };
 
-/* Eliminates the inner functions from the form matrix [46][46], whose upper left [30][30] remains, and from L. */
-static fs_status eliminate_inner(fs_context *ctx, double *form, double *local) {
+fs_status fs_g2cap_eliminate_inner(fs_context *ctx, double *form, double *local) {
   double *inner = form + OUTER * LOCAL + OUTER, X[INNER * OUTER];
   fs_status status;
   for (int32_t i = 0; i < INNER; i++) memcpy(X + i * OUTER, form + (OUTER + i) * LOCAL, OUTER * sizeof(double));
@@ -44,7 +43,7 @@ static fs_status eliminate_inner(fs_context *ctx, double *form, double *local) {
   fs_dense_mirror(OUTER, form, LOCAL);
   fs_dense_solve_upper(INNER, inner, LOCAL, OUTER, X, OUTER);
   for (int32_t i = 0; i < INNER; i++) {
-    int32_t point = 3 + i % 4 + 10 * (3 + i / 4);
+    int32_t point = fs_g2cap_inner_point(i);
     for (int32_t o = 0; o < OUTER; o++) local[point * OUTER + o] -= X[i * OUTER + o];
   }
   return FS_OK;
@@ -180,7 +179,7 @@ fs_status fs_g2cap_ritz_create(fs_context *ctx, int32_t valence, const fs_g2cap_
   FS_ALLOC(ctx, form, LOCAL * LOCAL);
   memcpy(ritz->local, local, POINTS * OUTER * sizeof *local);
   FS_TRY(fs_g2cap_form_matrix(ctx, options, local, chart, form));
-  if (!options->basic) FS_TRY(eliminate_inner(ctx, form, ritz->local));
+  if (!options->basic) FS_TRY(fs_g2cap_eliminate_inner(ctx, form, ritz->local));
   FS_TRY(minimise(ctx, form, ritz));
   *out = ritz;
   ritz = NULL;

@@ -168,6 +168,18 @@ done:
 
 /* ---- the rim ----------------------------------------------------------------------------------------------------- */
 
+/* Fixes the further dofs of every element whose vertices are all fixed. All sectors of a cap see the same vertices. */
+static void fix_offsets(const fs_space *space, bool *fixed) {
+  for (int32_t e = 0; e < space->n_elements; e++) {
+    const fs_extraction *x = &space->extraction[space->element[e].extraction];
+    const int32_t *dof = space->dof + space->element[e].dof_start;
+    int32_t n_vertices = x->n_dofs - x->n_offsets;
+    bool all = true;
+    for (int32_t i = 0; i < n_vertices && all && x->n_offsets > 0; i++) all = fixed[dof[i]];
+    for (int32_t i = n_vertices; i < x->n_dofs && all; i++) fixed[dof[i]] = true;
+  }
+}
+
 fs_status fs_space_rim(fs_context *ctx, const fs_mesh *mesh, const fs_space *space, bool *fixed) {
   fs_status status = FS_OK;
   bool *near_boundary = NULL;
@@ -182,6 +194,7 @@ fs_status fs_space_rim(fs_context *ctx, const fs_mesh *mesh, const fs_space *spa
       for (int32_t h = mesh->face_start[f]; is_near && h < mesh->face_start[f + 1]; h++) fixed[mesh->origin[h]] = true;
     }
   }
+  fix_offsets(space, fixed);
 done:
   fs_release(ctx, near_boundary);
   return status;

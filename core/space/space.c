@@ -5,12 +5,15 @@
 #include <math.h>
 #include <string.h>
 
+enum { DEFAULT_FULL_VALENCE = 8 };
+
 struct fs_space_builder {
   fs_context *ctx;
   const fs_mesh *mesh;
   fs_space *space;
+  fs_space_options options;
   int64_t dof_capacity;
-  int32_t extraction_capacity;
+  int32_t extraction_capacity, cap_capacity;
 };
 
 /* ---- the builder ------------------------------------------------------------------------------------------------- */
@@ -72,7 +75,32 @@ done:
   return status;
 }
 
-void fs_builder_count_cap(fs_space_builder *builder) { builder->space->n_caps++; }
+fs_status fs_builder_add_cap(fs_space_builder *b, int32_t spoke, int32_t n_dofs, int32_t *first_dof) {
+  fs_status status = FS_OK;
+  fs_space *space = b->space;
+  int32_t vertex = b->mesh->origin[spoke];
+  fs_cap *grown = NULL;
+  if (n_dofs > INT32_MAX - space->n_dofs)
+    return fs_fail(b->ctx, FS_ERR_UNSUPPORTED, "the mesh has too many caps for one space of %d dofs", space->n_dofs);
+  if (space->n_caps == b->cap_capacity) {
+    FS_ALLOC(b->ctx, grown, 2 * (size_t)b->cap_capacity + 4);
+    if (space->n_caps > 0) memcpy(grown, space->cap, (size_t)space->n_caps * sizeof *grown);
+    fs_release(b->ctx, space->cap);
+    space->cap = grown;
+    b->cap_capacity = 2 * b->cap_capacity + 4;
+  }
+  *first_dof = space->n_dofs;
+  space->cap[space->n_caps++] = (fs_cap){.vertex = vertex,
+                                         .valence = fs_mesh_valence(b->mesh, vertex),
+                                         .first_dof = space->n_dofs,
+                                         .n_dofs = n_dofs,
+                                         .halfedge = spoke};
+  space->n_dofs += n_dofs;
+done:
+  return status;
+}
+
+const fs_space_options *fs_builder_options(const fs_space_builder *builder) { return &builder->options; }
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
@@ -117,10 +145,27 @@ static fs_status check_owners(fs_context *ctx, const fs_mesh *mesh, const int32_
 }
 
 fs_status fs_space_create(fs_context *ctx, const fs_mesh *mesh, fs_space **result) {
+  return fs_space_create_with(ctx, mesh, NULL, result);
+}
+
+static fs_status set_options(fs_context *ctx, const fs_space_options *given, fs_space_options *options) {
+  if (given != NULL) *options = *given;
+  if (options->caps != FS_CAPS_LINEAR && options->caps != FS_CAPS_SMOOTH && options->caps != FS_CAPS_FULL)
+    return fs_fail(ctx, FS_ERR_ARGUMENT, "there is no kind of caps with the number %d", (int)options->caps);
+  if (options->max_full_valence < 0)
+    return fs_fail(ctx, FS_ERR_ARGUMENT, "full caps up to valence %d: it must not be negative",
+                   options->max_full_valence);
+  if (options->max_full_valence == 0) options->max_full_valence = DEFAULT_FULL_VALENCE;
+  return FS_OK;
+}
+
+fs_status fs_space_create_with(fs_context *ctx, const fs_mesh *mesh, const fs_space_options *options,
+                               fs_space **result) {
   fs_status status = FS_OK;
   fs_space *space = NULL;
   int32_t *owner = NULL, n_covered = 0;
   fs_space_builder builder = {.ctx = ctx, .mesh = mesh};
+  FS_TRY(set_options(ctx, options, &builder.options));
   FS_ALLOC(ctx, space, 1);
   builder.space = space;
   FS_ALLOC(ctx, owner, mesh->n_faces);
@@ -158,6 +203,7 @@ void fs_space_free(fs_context *ctx, fs_space *space) {
     }
   fs_release(ctx, space->extraction);
   fs_release(ctx, space->element);
+  fs_release(ctx, space->cap);
   fs_release(ctx, space->dof);
   fs_release(ctx, space->start);
   fs_release(ctx, space);
@@ -167,7 +213,7 @@ static fs_status validate_extraction(fs_context *ctx, const fs_extraction *x, in
   int32_t n_points = (x->degree_u + 1) * (x->degree_v + 1);
   for (int32_t r = 0; r < n_points; r++) {
     double sum = 0;
-    for (int32_t i = 0; i < x->n_dofs; i++) sum += x->E[(size_t)r * x->n_dofs + i];
+    for (int32_t i = 0; i < x->n_dofs - x->n_offsets; i++) sum += x->E[(size_t)r * x->n_dofs + i];
     if (!(fabs(sum - 1) <= 1e-11))
       return fs_fail(ctx, FS_ERR_NUMERIC, "row %d of extraction %d sums to %.17g instead of 1", r, index, sum);
   }
@@ -179,10 +225,13 @@ fs_status fs_space_validate(fs_context *ctx, const fs_space *space) {
   for (int32_t i = 0; i < space->n_extractions; i++) FS_TRY(validate_extraction(ctx, &space->extraction[i], i));
   for (int32_t i = 0; i < space->n_elements; i++) {
     const fs_element *e = &space->element[i];
-    for (int32_t d = 0; d < space->extraction[e->extraction].n_dofs; d++) {
+    const fs_extraction *x = &space->extraction[e->extraction];
+    for (int32_t d = 0; d < x->n_dofs; d++) {
       int32_t dof = space->dof[e->dof_start + d];
-      if (dof < 0 || dof >= space->n_dofs)
-        return fs_fail(ctx, FS_ERR_ARGUMENT, "element %d uses dof %d of %d", i, dof, space->n_dofs);
+      bool is_offset = d >= x->n_dofs - x->n_offsets;
+      if (dof < (is_offset ? space->n_vertices : 0) || dof >= (is_offset ? space->n_dofs : space->n_vertices))
+        return fs_fail(ctx, FS_ERR_ARGUMENT, "element %d uses dof %d of %d as %s", i, dof, space->n_dofs,
+                       is_offset ? "an offset" : "a vertex");
     }
     for (int side = 0; side < 4; side++) {
       int32_t other = e->neighbour[side];

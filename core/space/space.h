@@ -45,8 +45,12 @@ fs_status fs_builder_add_extraction(fs_space_builder *builder, const fs_extracti
 /* Adds an element on the face of halfedge, its side 0 along that; dofs[extraction.n_dofs] are copied. */
 fs_status fs_builder_add_element(fs_space_builder *builder, int32_t halfedge, int32_t extraction, const int32_t *dofs);
 
-/* One more special vertex carries a cap. */
-void fs_builder_count_cap(fs_space_builder *builder);
+/* One more special vertex carries a cap, with sector 0 at the half-edge spoke and n_dofs dofs of its own, whose first is
+   *first_dof. */
+fs_status fs_builder_add_cap(fs_space_builder *builder, int32_t spoke, int32_t n_dofs, int32_t *first_dof);
+
+/* Never NULL; max_full_valence is set. */
+const fs_space_options *fs_builder_options(const fs_space_builder *builder);
 
 extern const fs_patch_rule fs_rule_trim, fs_rule_bspline, fs_rule_g2cap;
 

@@ -13,6 +13,7 @@ extern "C" {
 /* What there is to write; a part that an exporter does not use may be NULL. */
 typedef struct fs_model {
   const char *name;       /* stem of the file, made an identifier by exporters that need one */
+  const char *file;       /* stem of the files, by which they name each other; NULL: name */
   const fs_mesh *control; /* the control net, with the positions to write */
   const fs_surface *surface;
   const fs_measure *colour;

@@ -22,6 +22,8 @@ extern "C" {
 
 typedef struct fs_extraction {
   int32_t degree_u, degree_v, n_dofs;
+  int32_t n_offsets; /* the last n_offsets dofs are no control vertices: they add functions to a surface that is complete
+                        without them. Rows of E sum to 1 over the others */
   double *E; /* [(degree_u + 1)(degree_v + 1)][n_dofs]; Bezier point (i, j), i along u, is row i + (degree_u + 1) j */
   double *chart;    /* NULL: the unit square is the chart; else Bezier points [rows of E][2] of the element in the plane
                      domain of its cap, scaled so that the area per element is 1 on average */
@@ -39,6 +41,13 @@ typedef struct fs_element {
   uint8_t neighbour_side[4]; /* the side of the neighbour that meets ours; it runs the other way */
 } fs_element;
 
+/* A cap and its own dofs. */
+typedef struct fs_cap {
+  int32_t vertex, valence;
+  int32_t first_dof, n_dofs; /* its inner coefficients: smooth ones first, then 16 per sector in the order of the sectors */
+  int32_t halfedge;          /* along the spoke from which sectors are counted, from the vertex; the coefficients depend on it */
+} fs_cap;
+
 typedef struct fs_space {
   int32_t n_vertices, n_dofs;                /* dofs 0 .. n_vertices - 1 are the control vertices */
   int32_t n_elements, n_extractions, n_caps; /* n_caps: special vertices that carry a cap */
@@ -46,6 +55,7 @@ typedef struct fs_space {
   int64_t n_element_dofs;                    /* size of dof */
   fs_element *element;
   fs_extraction *extraction;
+  fs_cap *cap; /* [n_caps] in the order of their vertices, and so are their dofs, which follow those of the vertices */
   int32_t *dof;
   fs_vec3 *start; /* [n_dofs] positions of the control vertices, zero for further dofs */
 } fs_space;
@@ -69,9 +79,29 @@ FS_API extern const fs_patch_rule *const fs_patch_rules[]; /* ends with NULL: tr
    G2 cap of degree (9, 9) [Kiciak 2013]. FS_ERR_UNSUPPORTED names the face that no rule takes, or says that no face has
    a full net. The mesh is not kept. */
 FS_API fs_status fs_space_create(fs_context *ctx, const fs_mesh *mesh, fs_space **space);
+
+/* What moves the inside of a cap besides the control vertices. Inner coefficients are dofs of their own, offsets that
+   start at zero: the linear cap [docs/g2caps.md, section 10]. They change the inside of the cap only, and its contact
+   with the surroundings stays as it is. */
+typedef enum fs_cap_inner {
+  FS_CAPS_LINEAR, /* nothing: the least energy in the plane domain for the given vertices */
+  FS_CAPS_SMOOTH, /* 16 .. 78 coefficients per cap, for functions of the whole cap */
+  FS_CAPS_FULL    /* those, and 16 in each of its sectors */
+} fs_cap_inner;
+
+/* All zero: what fs_space_create does. */
+typedef struct fs_space_options {
+  fs_cap_inner caps;
+  int32_t max_full_valence; /* caps of larger valence are smooth where full ones are asked for; 0: 8 */
+} fs_space_options;
+
+/* options may be NULL. */
+FS_API fs_status fs_space_create_with(fs_context *ctx, const fs_mesh *mesh, const fs_space_options *options,
+                                      fs_space **space);
 FS_API void fs_space_free(fs_context *ctx, fs_space *space); /* NULL is allowed */
 
-/* Checks the invariants: partition of unity of every extraction, element to element adjacency both ways, dofs in range. */
+/* Checks the invariants: partition of unity of every extraction, element to element adjacency both ways, dofs in range,
+   vertices and offsets in their places. */
 FS_API fs_status fs_space_validate(fs_context *ctx, const fs_space *space);
 
 /* What stands between a mesh and its space. */
@@ -98,7 +128,8 @@ FS_API fs_status fs_space_prepare(fs_context *ctx, const fs_mesh *mesh, int32_t 
                                   fs_refinement *steps[FS_MAX_REFINEMENTS], int32_t *n_steps);
 
 /* fixed[n_dofs] = true for the control vertices that act on position, first or second derivatives at the rim: those at
-   face distance 2 or less from the boundary (two steps over faces). Further dofs are free. */
+   face distance 2 or less from the boundary (two steps over faces). Further dofs are free, except in caps whose
+   vertices are all fixed. */
 FS_API fs_status fs_space_rim(fs_context *ctx, const fs_mesh *mesh, const fs_space *space, bool *fixed);
 
 #ifdef __cplusplus

@@ -206,6 +206,8 @@ static void test_shared_points(void **state) {
   fs_povray_pieces *pieces = NULL;
   int n_mixed = 0, n_divided = 0;
   (void)state;
+  /* sides and corners of neighbours differ by rounding errors, as they do when they come from other dofs */
+  for (size_t k = 0; k < s->n_data; k++) s->data[k] *= 1 + (double)(k % 7) * 1e-13;
   assert_int_equal(fs_povray_pieces_create(&ctx, s, 1e-9, 2, &pieces), FS_OK);
   assert_int_equal(pieces->m, 2);
   assert_int_equal(pieces->n_whole, 39);
