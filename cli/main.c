@@ -186,7 +186,7 @@ static void describe(job *j) {
   int used = snprintf(j->made_with, sizeof j->made_with, "fairsurf %s", fs_version());
   if (a->command == COMMAND_FAIR) {
     used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, ", %s", a->functional->name);
-    for (int i = 0; a->functional->params[i].name != NULL && used < (int)sizeof j->made_with; i++)
+    for (int i = 0; a->functional->params != NULL && a->functional->params[i].name != NULL && used < (int)sizeof j->made_with; i++)
       used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, " %s=%g", a->functional->params[i].name,
                        a->functional_param[i]);
   }

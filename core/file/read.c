@@ -86,7 +86,7 @@ static void name_path(fs_context *ctx, const char *path) {
   fs_fail(ctx, FS_OK, "%s: %s", fs_path_shown(path), sentence);
 }
 
-fs_status fs_mesh_read(fs_context *ctx, const char *path, fs_mesh **mesh) {
+fs_status fs_mesh_read_notes(fs_context *ctx, const char *path, fs_mesh **mesh, fs_mesh_notes *notes) {
   char extension[16] = "", *bytes = NULL;
   const char *given = fs_path_extension(path);
   size_t size = 0;
@@ -95,9 +95,16 @@ fs_status fs_mesh_read(fs_context *ctx, const char *path, fs_mesh **mesh) {
   for (size_t i = 0; given[i] != '\0' && i < sizeof extension - 1; i++)
     extension[i] = given[i] >= 'A' && given[i] <= 'Z' ? (char)(given[i] - 'A' + 'a') : given[i];
   FS_TRY(fs_file_read(ctx, path, &bytes, &size));
-  status = fs_mesh_parse(ctx, extension, bytes, size, mesh);
+  status = fs_mesh_parse_notes(ctx, extension, bytes, size, mesh, notes);
   if (status != FS_OK) name_path(ctx, path);
 done:
   fs_file_free(ctx, bytes);
+  return status;
+}
+
+fs_status fs_mesh_read(fs_context *ctx, const char *path, fs_mesh **mesh) {
+  fs_mesh_notes notes;
+  fs_status status = fs_mesh_read_notes(ctx, path, mesh, &notes);
+  if (status == FS_OK) fs_mesh_notes_clear(ctx, &notes);
   return status;
 }

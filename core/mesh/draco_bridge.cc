@@ -87,6 +87,7 @@ const char *find_damage(const draco::Mesh &mesh) {
       if (mesh.face(draco::FaceIndex(t))[c].value() >= mesh.num_points()) return "a corner is no point";
   for (int i = 0; i < mesh.num_attributes(); i++) {
     const draco::PointAttribute *a = mesh.attribute(i);
+    if (a->num_components() == 0 || a->num_components() > INT8_MAX) return "an attribute has too many components";
     if (a->buffer() == nullptr || a->byte_offset() != 0 || a->size() > INT32_MAX ||
         a->buffer()->data_size() < a->size() * static_cast<size_t>(a->byte_stride()))
       return "values of an attribute are missing";

@@ -134,4 +134,4 @@ done:
   return status;
 }
 
-const fs_reader fs_reader_obj = {"obj", "obj", "Wavefront OBJ: vertices and polygons", parse};
+const fs_reader fs_reader_obj = {"obj", "obj", "Wavefront OBJ: vertices and polygons", parse, NULL};

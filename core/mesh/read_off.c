@@ -94,4 +94,4 @@ done:
   return status;
 }
 
-const fs_reader fs_reader_off = {"off", "off", "OFF of Geomview, text: vertices and polygons", parse};
+const fs_reader fs_reader_off = {"off", "off", "OFF of Geomview, text: vertices and polygons", parse, NULL};

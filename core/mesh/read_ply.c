@@ -213,4 +213,4 @@ done:
   return status;
 }
 
-const fs_reader fs_reader_ply = {"ply", "ply", "PLY, ascii and binary_little_endian: vertices and polygons", parse};
+const fs_reader fs_reader_ply = {"ply", "ply", "PLY, ascii and binary_little_endian: vertices and polygons", parse, NULL};

@@ -19,6 +19,8 @@ typedef struct fs_model {
   const fs_measure *colour;
   const uint8_t *fixed;  /* [n_vertices] of control: 1 where fairing kept the vertex */
   const char *made_with; /* one line for comments: version, functional, parameters; or NULL */
+  const char *functional; /* that the control net minimises, with its parameters; NULL: it was not faired */
+  int32_t n_refinements;  /* from the mesh of the user to the control net */
 } fs_model;
 
 typedef struct fs_sink {

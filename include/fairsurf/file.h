@@ -15,6 +15,8 @@ FS_API void fs_file_free(fs_context *ctx, char *bytes);
 
 /* Reads a control mesh; the format follows the extension of the path, whatever its case. */
 FS_API fs_status fs_mesh_read(fs_context *ctx, const char *path, fs_mesh **mesh);
+/* The same, and what the file says besides the polygons; notes is overwritten, for fs_mesh_notes_clear. */
+FS_API fs_status fs_mesh_read_notes(fs_context *ctx, const char *path, fs_mesh **mesh, fs_mesh_notes *notes);
 
 /* An output that writes beside the final files (same folder, temporary names) and renames them all at the end, so that no
    half-written file is ever seen under its name. path: "dir/name.pov"; other extensions go to "dir/name.EXT". */

@@ -75,16 +75,30 @@ typedef struct fs_mesh_summary {
 } fs_mesh_summary;
 FS_API fs_status fs_mesh_summarise(fs_context *ctx, const fs_mesh *mesh, fs_mesh_summary *summary);
 
+/* What a file may say about its control mesh besides the polygons. All zero: nothing. */
+typedef struct fs_mesh_notes {
+  uint8_t *fixed;                /* [n_vertices] 1 where fairing kept the vertex; NULL: not said */
+  char *made_with, *functional;  /* as in fs_model; NULL: not said */
+  int32_t n_refinements;
+} fs_mesh_notes;
+FS_API void fs_mesh_notes_clear(fs_context *ctx, fs_mesh_notes *notes);
+
 /* A file format of control meshes. parse reads from memory and writes nothing but the mesh. */
 typedef struct fs_reader {
   const char *name, *extension, *summary;
   fs_status (*parse)(fs_context *ctx, const char *bytes, size_t size, fs_mesh **mesh);
+  /* parse with what else the file says; NULL: the format says nothing else. */
+  fs_status (*parse_notes)(fs_context *ctx, const char *bytes, size_t size, fs_mesh **mesh, fs_mesh_notes *notes);
 } fs_reader;
 FS_API extern const fs_reader *const fs_readers[]; /* ends with NULL */
 
 /* Parses a mesh in the format whose extension is given ("obj"); FS_ERR_UNSUPPORTED lists the known ones.
    Memory stays within a small multiple of size whatever the bytes say. Messages name the line, or the byte offset. */
 FS_API fs_status fs_mesh_parse(fs_context *ctx, const char *extension, const char *bytes, size_t size, fs_mesh **mesh);
+
+/* The same, and what the file says besides; notes is overwritten, for fs_mesh_notes_clear. */
+FS_API fs_status fs_mesh_parse_notes(fs_context *ctx, const char *extension, const char *bytes, size_t size,
+                                     fs_mesh **mesh, fs_mesh_notes *notes);
 
 #ifdef __cplusplus
 }

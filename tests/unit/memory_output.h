@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Zero at the beginning; bytes end with a zero byte. With several files it holds the one opened last. */
+/* Zero at the beginning. Several files follow each other in bytes; a zero byte ends them. */
 typedef struct memory_output {
   char *bytes, extension[8];
   size_t size;
@@ -28,13 +28,18 @@ static inline fs_status memory_output_write(void *user, const void *bytes, size_
 static inline fs_status memory_output_open(void *user, const char *extension, fs_sink *sink) {
   memory_output *file = user;
   file->n_opened++;
-  file->size = 0;
   snprintf(file->extension, sizeof file->extension, "%s", extension);
   *sink = (fs_sink){memory_output_write, file};
   return FS_OK;
 }
 
 static inline fs_output memory_output_of(memory_output *file) { return (fs_output){memory_output_open, file}; }
+
+/* value of the parameter of that name, among those of an exporter */
+static inline void memory_output_set(const fs_exporter *exporter, double *param, const char *name, double value) {
+  for (int k = 0; exporter->params[k].name != NULL; k++)
+    if (strcmp(exporter->params[k].name, name) == 0) param[k] = value;
+}
 
 /* The numbers behind the first occurrence of `behind`: whatever stands between them is skipped. */
 static inline const char *memory_output_numbers(const char *text, const char *behind, size_t n, double *number) {
