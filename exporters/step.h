@@ -25,8 +25,8 @@ typedef struct fs_step_layout {
   int32_t *corner;  /* [4 n_patches] number of the point at corner c of patch p: 4 p + c (fs_surface_corners) */
 } fs_step_layout;
 
-/* Without is_merging every patch is a face. With it bicubic patches that join C2, to 1e-12 of the largest coordinate,
-   become rectangles whose border does not touch itself. */
+/* Without is_merging every patch is a face. With it bicubic patches that join C2, to the tolerance for points and their
+   differences, become rectangles whose border does not touch itself. */
 fs_status fs_step_layout_create(fs_context *ctx, const fs_surface *surface, bool is_merging, double tolerance,
                                 fs_step_layout **layout);
 void fs_step_layout_free(fs_context *ctx, fs_step_layout *layout); /* NULL is allowed */
@@ -66,12 +66,13 @@ typedef struct fs_step_curve {
   int32_t degree, n_pieces;
 } fs_step_curve;
 
-/* The curve of an edge, its ends at the given points: points[FS_MAX_DEGREE + n_sides]. Sides of caps that are cubic are
-   written so, whatever the degree of their patch. */
-fs_step_curve fs_step_edge_curve(const fs_surface *surface, const fs_step_layout *layout, const fs_step_edge *edge,
-                                 double tolerance, fs_vec3 start, fs_vec3 end, fs_vec3 *points);
+/* The curve of an edge, its ends at the given points. points: room for fs_step_edge_room. Of a single side the points of the
+   patch of lower degree; a side that is cubic is written so whatever its degree, as those around caps are. */
+fs_step_curve fs_step_edge_curve(const fs_surface *surface, const fs_step_edge *edge, double tolerance, fs_vec3 start,
+                                 fs_vec3 end, fs_vec3 *points);
+static inline size_t fs_step_edge_room(const fs_step_edge *edge) { return FS_MAX_DEGREE + 1 + 4 * (size_t)edge->n_sides; }
 
-/* Points of a face, first along its bottom: points[(FS_MAX_DEGREE + n)(FS_MAX_DEGREE + m)]. */
+/* Points of a face, first along its bottom. points: room for (degree_u + 1) n (degree_v + 1) m. */
 void fs_step_face_surface(const fs_surface *surface, const fs_step_face *face, fs_step_curve *u, fs_step_curve *v,
                           fs_vec3 *points);
 

@@ -51,81 +51,172 @@ static void find_smooth_sides(const fs_surface *surface, double tolerance, uint8
 typedef struct grower {
   const fs_surface *surface;
   fs_step_layout *layout;
-  uint8_t *smooth;
-  int32_t trial;                       /* number of the rectangle that grows, from 1 */
-  int32_t *trial_of, *trial_of_corner; /* [n_patches], [n_corners] rectangle that holds it, or an older one */
-  int32_t *old;                        /* [n_patches + 1] of corners, to undo a step that fails */
+  uint8_t *smooth;   /* [4 n_patches] sides across which bicubic patches join C2 */
+  int32_t trial;     /* number of the rectangle that grows, from 1 */
+  int32_t *trial_of; /* [n_corners] trial if the rectangle has the corner, else another number */
+  int32_t *row;      /* [n_patches] cells to add */
 } grower;
 
 typedef struct rectangle {
   int32_t end[4];     /* cells at its corners: end[s] where side s starts */
-  int32_t size[2];    /* cells along sides 0 and 2, along sides 1 and 3 */
-  bool is_wrapped[2]; /* growth across sides 1 and 3, 0 and 2 met the rectangle itself */
+  int32_t size[2];    /* cells along sides 0 and 2; along sides 1 and 3 */
+  bool is_wrapped[2]; /* a row more in that direction would have touched the rectangle itself */
+  bool is_done[4];    /* nothing more to add across that side */
 } rectangle;
 
-/* Marks the corner at end e (0 start, 1 end) of side s of a cell; false where the rectangle has it already. */
-static bool take_corner(grower *g, int32_t cell, int32_t s, int32_t *old) {
-  int32_t corner = g->layout->corner[fs_step_side(cell, s)];
-  if (g->trial_of_corner[corner] == g->trial) return false;
-  *old = g->trial_of_corner[corner];
-  g->trial_of_corner[corner] = g->trial;
+static bool take_corner(grower *g, int32_t cell, int32_t s) {
+  int32_t *trial = &g->trial_of[g->layout->corner[fs_step_side(cell, s)]];
+  if (*trial == g->trial) return false;
+  *trial = g->trial;
   return true;
 }
 
-static void start(grower *g, int32_t patch, rectangle *r) {
-  int32_t old;
+static void leave_corner(grower *g, int32_t cell, int32_t s) {
+  g->trial_of[g->layout->corner[fs_step_side(cell, s)]] = 0;
+}
+
+static rectangle start(grower *g, int32_t patch) {
+  rectangle r = {.size = {1, 1}};
   g->trial++;
-  *r = (rectangle){.size = {1, 1}};
   for (int32_t s = 0; s < 4; s++) {
-    r->end[s] = 4 * patch;
-    if (!take_corner(g, 4 * patch, s, &old)) r->is_wrapped[0] = r->is_wrapped[1] = true;
+    r.end[s] = 4 * patch;
+    if (!take_corner(g, 4 * patch, s)) r.is_done[0] = r.is_done[1] = r.is_done[2] = r.is_done[3] = true;
   }
-  g->trial_of[patch] = g->trial;
+  return r;
 }
 
-/* Cells to add across side s, from its start: whether number k may follow the one before it. */
-static bool is_addable(const grower *g, int32_t inner, int32_t s, int32_t before, int32_t cell) {
-  if (cell == FS_NONE || !g->smooth[fs_step_side(inner, s)] || g->layout->face_of[cell / 4] != FS_NONE) return false;
-  return before == FS_NONE ||
-         (fs_step_cross(g->surface, before, (s + 1) % 4) == cell && g->smooth[fs_step_side(before, (s + 1) % 4)]);
-}
-
-/* One row more across side s. The corners at its far side, one more than cells, must be new. */
-static bool extend(grower *g, rectangle *r, int32_t s) {
-  int32_t n = r->size[s % 2], inner = r->end[s], before = FS_NONE, cell = FS_NONE, first = FS_NONE, n_taken = 0;
-  bool is_free = true;
-  for (int32_t k = 0; k < n && is_free; k++, before = cell) {
-    cell = fs_step_cross(g->surface, inner, s);
-    if (!is_addable(g, inner, s, before, cell)) {
-      is_free = false;
-      break;
-    }
-    is_free = g->trial_of[cell / 4] != g->trial;
-    if (k == 0) {
-      first = cell;
-      if (is_free) is_free = take_corner(g, cell, s, &g->old[n_taken]);
-      if (is_free) n_taken++;
-    }
-    if (is_free) is_free = take_corner(g, cell, (s + 1) % 4, &g->old[n_taken]);
-    if (is_free)
-      n_taken++;
-    else
-      r->is_wrapped[(s + 1) % 2] = true;
-    if (k + 1 < n) inner = fs_step_cross(g->surface, inner, (s + 1) % 4);
+/* Collects the cells across side s; false where one is missing, taken, or not smooth to its neighbours. */
+static bool find_row(grower *g, const rectangle *r, int32_t s) {
+  int32_t inner = r->end[s];
+  for (int32_t k = 0; k < r->size[s % 2]; k++) {
+    int32_t cell = fs_step_cross(g->surface, inner, s);
+    if (!g->smooth[fs_step_side(inner, s)] || g->layout->face_of[cell / 4] != FS_NONE) return false;
+    if (k > 0 && (fs_step_cross(g->surface, g->row[k - 1], (s + 1) % 4) != cell ||
+                  !g->smooth[fs_step_side(g->row[k - 1], (s + 1) % 4)]))
+      return false;
+    g->row[k] = cell;
+    inner = fs_step_cross(g->surface, inner, (s + 1) % 4);
   }
-  cell = first;
-  for (int32_t k = 0; k < (is_free ? n : n_taken - 1) || (!is_free && k == 0 && n_taken > 0); k++) {
-    if (is_free) {
-      g->trial_of[cell / 4] = g->trial;
-    } else {
-      if (k == 0) g->trial_of_corner[g->layout->corner[fs_step_side(cell, s)]] = g->old[0];
-      if (k + 1 < n_taken) g->trial_of_corner[g->layout->corner[fs_step_side(cell, (s + 1) % 4)]] = g->old[k + 1];
-    }
-    before = cell;
-    if (k + 1 < n) cell = fs_step_cross(g->surface, cell, (s + 1) % 4);
-  }
-  if (!is_free) return false;
-  r->end[s] = first, r->end[(s + 1) % 4] = before;
-  r->size[(s + 1) % 2]++;
   return true;
+}
+
+/* Takes the corners at the far side of a row of n cells; none of them may be in the rectangle yet. */
+static bool take_row(grower *g, int32_t n, int32_t s) {
+  for (int32_t k = 0; k <= n; k++) {
+    if (k == 0 ? take_corner(g, g->row[0], s) : take_corner(g, g->row[k - 1], (s + 1) % 4)) continue;
+    while (--k > 0) leave_corner(g, g->row[k - 1], (s + 1) % 4);
+    if (k == 0) leave_corner(g, g->row[0], s);
+    return false;
+  }
+  return true;
+}
+
+static void extend(grower *g, rectangle *r, int32_t s, const int32_t max[2]) {
+  int32_t n = r->size[s % 2], *size = &r->size[(s + 1) % 2];
+  if (r->is_done[s]) return;
+  r->is_done[s] = true;
+  if (*size >= max[(s + 1) % 2] || !find_row(g, r, s)) return;
+  if (!take_row(g, n, s)) {
+    r->is_wrapped[(s + 1) % 2] = true;
+    return;
+  }
+  r->end[s] = g->row[0], r->end[(s + 1) % 4] = g->row[n - 1];
+  ++*size;
+  r->is_done[s] = false;
+}
+
+static bool is_done(const rectangle *r, int32_t s) { return r->is_done[s] && r->is_done[(s + 2) % 4]; }
+
+/* order 0: the two directions in turn; 1: first across sides 1 and 3; 2: first across 0 and 2. */
+static rectangle grow(grower *g, int32_t patch, int32_t order, const int32_t max[2]) {
+  rectangle r = start(g, patch);
+  while (!is_done(&r, 0) || !is_done(&r, 1))
+    for (int32_t s = 0; s < 4; s++)
+      if (order == 0 || (order == 1) == (s % 2 == 1) || is_done(&r, order == 1 ? 1 : 0)) extend(g, &r, s, max);
+  return r;
+}
+
+/* A rectangle that would meet itself around a tube is made again, half as long as the way around. */
+static rectangle grow_open(grower *g, int32_t patch, int32_t order) {
+  int32_t max[2] = {INT32_MAX, INT32_MAX};
+  rectangle r = grow(g, patch, order, max);
+  for (int32_t attempt = 0; attempt < 2 && (r.is_wrapped[0] || r.is_wrapped[1]); attempt++) {
+    for (int32_t k = 0; k < 2; k++)
+      if (r.is_wrapped[k]) max[k] = (r.size[k] + 2) / 2;
+    r = grow(g, patch, order, max);
+  }
+  return r;
+}
+
+/* ---- the layout ---- */
+
+static void add_face(const fs_surface *surface, fs_step_layout *layout, const rectangle *r) {
+  int32_t row = r->end[0];
+  layout->face[layout->n_faces] = (fs_step_face){row, r->size[0], r->size[1]};
+  for (int32_t j = 0; j < r->size[1]; j++) {
+    for (int32_t i = 0, cell = row; i < r->size[0]; i++, cell = fs_step_cross(surface, cell, 1)) {
+      layout->face_of[cell / 4] = layout->n_faces;
+      layout->turn[cell / 4] = (uint8_t)(cell % 4);
+    }
+    row = fs_step_cross(surface, row, 2);
+  }
+  layout->n_faces++;
+}
+
+static int64_t area(const rectangle *r) { return (int64_t)r->size[0] * r->size[1]; }
+
+static void add_largest(grower *g, int32_t patch) {
+  rectangle best = {{0}};
+  for (int32_t order = 0; order < 3; order++) {
+    rectangle r = grow_open(g, patch, order);
+    if (area(&r) > area(&best)) best = r;
+  }
+  add_face(g->surface, g->layout, &best);
+}
+
+static fs_status merge(fs_context *ctx, const fs_surface *surface, double tolerance, fs_step_layout *layout) {
+  fs_status status = FS_OK;
+  grower g = {.surface = surface, .layout = layout};
+  FS_ALLOC(ctx, g.smooth, 4 * (size_t)surface->n_patches);
+  FS_ALLOC(ctx, g.trial_of, layout->n_corners);
+  FS_ALLOC(ctx, g.row, surface->n_patches);
+  find_smooth_sides(surface, tolerance, g.smooth);
+  for (int32_t p = 0; p < surface->n_patches; p++)
+    if (layout->face_of[p] == FS_NONE) add_largest(&g, p);
+done:
+  fs_release(ctx, g.smooth);
+  fs_release(ctx, g.trial_of);
+  fs_release(ctx, g.row);
+  return status;
+}
+
+fs_status fs_step_layout_create(fs_context *ctx, const fs_surface *surface, bool is_merging, double tolerance,
+                                fs_step_layout **layout) {
+  fs_status status = FS_OK;
+  fs_step_layout *made = NULL;
+  size_t n = (size_t)surface->n_patches;
+  FS_ALLOC(ctx, made, 1);
+  FS_ALLOC(ctx, made->face, n);
+  FS_ALLOC(ctx, made->face_of, n);
+  FS_ALLOC(ctx, made->turn, n);
+  FS_ALLOC(ctx, made->corner, 4 * n);
+  FS_TRY(fs_surface_corners(ctx, surface, made->corner, &made->n_corners));
+  for (int32_t p = 0; p < surface->n_patches; p++) made->face_of[p] = FS_NONE;
+  if (is_merging) FS_TRY(merge(ctx, surface, tolerance, made));
+  for (int32_t p = 0; !is_merging && p < surface->n_patches; p++)
+    add_face(surface, made, &(rectangle){.end = {4 * p}, .size = {1, 1}});
+  *layout = made;
+  made = NULL;
+done:
+  fs_step_layout_free(ctx, made);
+  return status;
+}
+
+void fs_step_layout_free(fs_context *ctx, fs_step_layout *layout) {
+  if (layout == NULL) return;
+  fs_release(ctx, layout->face);
+  fs_release(ctx, layout->face_of);
+  fs_release(ctx, layout->turn);
+  fs_release(ctx, layout->corner);
+  fs_release(ctx, layout);
 }
