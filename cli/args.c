@@ -42,7 +42,7 @@ typedef struct named_param {
 
 /* Settings and -o in the order in which they came. */
 typedef struct event {
-  int32_t name;      /* of a parameter, or -1: an output */
+  int32_t name; /* of a parameter, or -1: an output */
   const char *text;
   bool is_surface;
   const fs_measure *colour;
@@ -153,15 +153,18 @@ static void print_version(void) {
 
 static void print_list(void) {
   printf("functionals:\n");
-  for (int i = 0; fs_functionals[i] != NULL; i++) printf("  %-20s %s\n", fs_functionals[i]->name, fs_functionals[i]->summary);
+  for (int i = 0; fs_functionals[i] != NULL; i++)
+    printf("  %-20s %s\n", fs_functionals[i]->name, fs_functionals[i]->summary);
   printf("patch rules:\n");
-  for (int i = 0; fs_patch_rules[i] != NULL; i++) printf("  %-20s %s\n", fs_patch_rules[i]->name, fs_patch_rules[i]->summary);
+  for (int i = 0; fs_patch_rules[i] != NULL; i++)
+    printf("  %-20s %s\n", fs_patch_rules[i]->name, fs_patch_rules[i]->summary);
   printf("refinements:\n");
   for (int i = 0; fs_refiners[i] != NULL; i++) printf("  %-20s %s\n", fs_refiners[i]->name, fs_refiners[i]->summary);
   printf("readers:\n");
   for (int i = 0; fs_readers[i] != NULL; i++) printf("  .%-19s %s\n", fs_readers[i]->extension, fs_readers[i]->summary);
   printf("exporters:\n");
-  for (int i = 0; fs_exporters[i] != NULL; i++) printf("  .%-19s %s\n", fs_exporters[i]->extension, fs_exporters[i]->summary);
+  for (int i = 0; fs_exporters[i] != NULL; i++)
+    printf("  .%-19s %s\n", fs_exporters[i]->extension, fs_exporters[i]->summary);
   printf("measures:\n");
   for (int i = 0; fs_measures[i] != NULL; i++) printf("  %-20s %s\n", fs_measures[i]->name, fs_measures[i]->summary);
 }
@@ -228,32 +231,67 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
       return 0;
     }
   switch (key) {
-  case 'o': add_event(state, p, (event){.name = -1, .text = text, .is_surface = p->is_surface, .colour = p->colour}); break;
-  case 'q': a->quiet = true; break;
-  case 'V': print_version(); exit(0);
-  case KEY_LIST: print_list(); exit(0);
-  case KEY_FIXED: a->fixed = text; break;
-  case KEY_REPORT: a->report = text; break;
-  case KEY_REFINE: a->refine = parse_integer(state, "refine", text, 0, FS_MAX_REFINEMENTS - 2); break;
-  case KEY_NO_REFINE: a->no_refine = true; break;
-  case KEY_NODES: a->nodes = parse_integer(state, "nodes", text, 1, 32); break;
-  case KEY_ITERATIONS: a->max_iterations = parse_integer(state, "max-iterations", text, 0, INT_MAX); break;
-  case KEY_THREADS: a->threads = parse_integer(state, "threads", text, 1, 64); break;
-  case KEY_BLAS_THREADS: a->blas_threads = parse_integer(state, "blas-threads", text, 1, 64); break;
+  case 'o':
+    add_event(state, p, (event){.name = -1, .text = text, .is_surface = p->is_surface, .colour = p->colour});
+    break;
+  case 'q':
+    a->quiet = true;
+    break;
+  case 'V':
+    print_version();
+    exit(0);
+  case KEY_LIST:
+    print_list();
+    exit(0);
+  case KEY_FIXED:
+    a->fixed = text;
+    break;
+  case KEY_REPORT:
+    a->report = text;
+    break;
+  case KEY_REFINE:
+    a->refine = parse_integer(state, "refine", text, 0, FS_MAX_REFINEMENTS - 2);
+    break;
+  case KEY_NO_REFINE:
+    a->no_refine = true;
+    break;
+  case KEY_NODES:
+    a->nodes = parse_integer(state, "nodes", text, 1, 32);
+    break;
+  case KEY_ITERATIONS:
+    a->max_iterations = parse_integer(state, "max-iterations", text, 0, INT_MAX);
+    break;
+  case KEY_THREADS:
+    a->threads = parse_integer(state, "threads", text, 1, 64);
+    break;
+  case KEY_BLAS_THREADS:
+    a->blas_threads = parse_integer(state, "blas-threads", text, 1, 64);
+    break;
   case KEY_FUNCTIONAL:
     a->functional = fs_functional_find(text);
-    if (a->functional == NULL) argp_error(state, "--functional %s is unknown; fairsurf --list shows the known ones", text);
+    if (a->functional == NULL)
+      argp_error(state, "--functional %s is unknown; fairsurf --list shows the known ones", text);
     break;
   case KEY_START:
     if (strcmp(text, "triharmonic") != 0 && strcmp(text, "mesh") != 0)
       argp_error(state, "--start %s: choose one of mesh, triharmonic", text);
     a->start_triharmonic = strcmp(text, "triharmonic") == 0;
     break;
-  case KEY_NAME: a->name = text; break;
-  case KEY_SURFACE: p->is_surface = true; break;
-  case KEY_NET: p->is_surface = false; break;
-  case KEY_JSON: a->json = true; break;
-  case KEY_SCHEME: a->refiner = text; break;
+  case KEY_NAME:
+    a->name = text;
+    break;
+  case KEY_SURFACE:
+    p->is_surface = true;
+    break;
+  case KEY_NET:
+    p->is_surface = false;
+    break;
+  case KEY_JSON:
+    a->json = true;
+    break;
+  case KEY_SCHEME:
+    a->refiner = text;
+    break;
   case KEY_COLOUR:
     p->colour = fs_measure_find(text);
     if (p->colour == NULL) argp_error(state, "--colour %s is unknown; fairsurf --list shows the known measures", text);
@@ -262,15 +300,19 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case ARGP_KEY_ARG:
     if (state->arg_num == 0) {
       a->command = command_of(text);
-      if (a->command == COMMAND_NONE) argp_error(state, "unknown command %s: info, refine, fair and export are known", text);
+      if (a->command == COMMAND_NONE)
+        argp_error(state, "unknown command %s: info, refine, fair and export are known", text);
     } else if (state->arg_num == 1) {
       a->mesh = text;
     } else {
       argp_error(state, "%s: one mesh at a time", text);
     }
     break;
-  case ARGP_KEY_END: finish(state, p); break;
-  default: return ARGP_ERR_UNKNOWN;
+  case ARGP_KEY_END:
+    finish(state, p);
+    break;
+  default:
+    return ARGP_ERR_UNKNOWN;
   }
   return 0;
 }
@@ -311,19 +353,21 @@ void parse_arguments(int argc, char **argv, arguments *a) {
       "  refine MESH   one refinement step of the mesh\n"
       "  fair MESH     move the free vertices to the fairest surface, write it\n"
       "  export MESH   write the surface as it is\n\n"
-      "Options of a file format hold for the -o that follow them; where none came before an -o, the first one on the line "
+      "Options of a file format hold for the -o that follow them; where none came before an -o, the first one on the "
+      "line "
       "holds. Exit codes: 0 done, 1 the input is refused, 2 usage, 3 numeric failure, 4 files, 130 cancelled (the best "
       "surface so far is written).";
   parser p = {.arguments = a};
   struct argp_option options[N_FIXED_OPTIONS + MAX_NAMES + 2] = {{0}};
   int n = 0;
-  *a = (arguments){.functional = fs_functionals[0], .refiner = "averaging", .max_iterations = 100, .threads = 1, .blas_threads = 1};
+  *a = (arguments){
+      .functional = fs_functionals[0], .refiner = "averaging", .max_iterations = 100, .threads = 1, .blas_threads = 1};
   collect_params(&p);
   for (int i = 0; i < N_FIXED_OPTIONS; i++) options[n++] = fixed_options[i];
   options[n++] = (struct argp_option){.doc = "Parameters (of functionals, refinements, file formats):", .group = 5};
   for (int32_t i = 0; i < p.n_names; i++) {
-    options[n++] = (struct argp_option){
-        .name = p.name[i].param->name, .key = key_of(&p, i), .arg = "VALUE", .doc = p.name[i].doc};
+    options[n++] =
+        (struct argp_option){.name = p.name[i].param->name, .key = key_of(&p, i), .arg = "VALUE", .doc = p.name[i].doc};
   }
   const struct argp argp = {.options = options, .parser = parse_option, .args_doc = "COMMAND MESH", .doc = doc};
   argp_err_exit_status = EXIT_USAGE;

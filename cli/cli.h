@@ -14,10 +14,10 @@ typedef enum command { COMMAND_NONE, COMMAND_INFO, COMMAND_REFINE, COMMAND_FAIR,
 /* One -o, with the settings that hold for it. */
 typedef struct output_request {
   const char *path;
-  bool is_surface;                 /* --surface came before it */
+  bool is_surface; /* --surface came before it */
   const fs_exporter *exporter;
-  double param[MAX_PARAM_VALUES];  /* of the exporter */
-  const fs_measure *colour;        /* or NULL */
+  double param[MAX_PARAM_VALUES]; /* of the exporter */
+  const fs_measure *colour;       /* or NULL */
 } output_request;
 
 typedef struct arguments {
@@ -25,11 +25,11 @@ typedef struct arguments {
   const char *mesh;
   int32_t n_outputs;
   output_request output[MAX_OUTPUTS];
-  const char *name;                /* of the object in the files, or NULL: the stem */
-  const char *fixed, *report;      /* files, or NULL */
+  const char *name;           /* of the object in the files, or NULL: the stem */
+  const char *fixed, *report; /* files, or NULL */
   bool json, no_refine, quiet, start_triharmonic;
   int32_t refine, nodes, max_iterations, threads, blas_threads;
-  const char *refiner;             /* of the command refine */
+  const char *refiner; /* of the command refine */
   double refiner_param[MAX_PARAM_VALUES];
   const fs_functional *functional;
   double functional_param[MAX_PARAM_VALUES];

@@ -7,9 +7,9 @@
 /* The space that fair and export would use. */
 typedef struct plan {
   bool is_possible;
-  char why[256];       /* why not, or the last note about refinement */
+  char why[256]; /* why not, or the last note about refinement */
   int32_t n_refinements, n_vertices, n_faces, n_elements, n_caps, n_free;
-  int64_t n_nodes;     /* quadrature nodes of one evaluation */
+  int64_t n_nodes; /* quadrature nodes of one evaluation */
 } plan;
 
 enum { NODES_SQUARE = 8 * 8, NODES_CAP = 12 * 12 };
@@ -87,26 +87,27 @@ static void print_text(const arguments *a, const fs_mesh_summary *s, const plan 
     printf("space: none: %s\n", p->why);
     return;
   }
-  printf("space: after %d refinements %d vertices and %d faces, %d squares, %d caps, %d free vertices\n", p->n_refinements,
-         p->n_vertices, p->n_faces, p->n_elements, p->n_caps, p->n_free);
+  printf("space: after %d refinements %d vertices and %d faces, %d squares, %d caps, %d free vertices\n",
+         p->n_refinements, p->n_vertices, p->n_faces, p->n_elements, p->n_caps, p->n_free);
   if (p->why[0] != '\0') printf("       %s\n", p->why);
   printf("cost: %lld quadrature nodes per evaluation\n", (long long)p->n_nodes);
 }
 
 static void print_json(const fs_mesh_summary *s, const plan *p) {
-  printf("{\n  \"vertices\": %d,\n  \"edges\": %d,\n  \"faces\": %d,\n  \"components\": %d,\n", s->n_vertices, s->n_edges,
-         s->n_faces, s->n_components);
+  printf("{\n  \"vertices\": %d,\n  \"edges\": %d,\n  \"faces\": %d,\n  \"components\": %d,\n", s->n_vertices,
+         s->n_edges, s->n_faces, s->n_components);
   printf("  \"boundary_loops\": %d,\n  \"boundary_vertices\": %d,\n  \"genus\": %d,\n", s->n_boundary_loops,
          s->n_boundary_vertices, s->genus);
   print_counts("face_size", s->face_size, true);
   print_counts("valence_interior", s->valence_interior, true);
   print_counts("valence_boundary", s->valence_boundary, true);
-  printf("  \"min\": [%.17g, %.17g, %.17g],\n  \"max\": [%.17g, %.17g, %.17g],\n", s->min.x, s->min.y, s->min.z, s->max.x,
-         s->max.y, s->max.z);
-  printf("  \"space\": {\"possible\": %s, \"refinements\": %d, \"vertices\": %d, \"faces\": %d, \"squares\": %d, \"caps\": %d, "
+  printf("  \"min\": [%.17g, %.17g, %.17g],\n  \"max\": [%.17g, %.17g, %.17g],\n", s->min.x, s->min.y, s->min.z,
+         s->max.x, s->max.y, s->max.z);
+  printf("  \"space\": {\"possible\": %s, \"refinements\": %d, \"vertices\": %d, \"faces\": %d, \"squares\": %d, "
+         "\"caps\": %d, "
          "\"free\": %d, \"quadrature_nodes\": %lld, \"note\": \"",
-         p->is_possible ? "true" : "false", p->n_refinements, p->n_vertices, p->n_faces, p->n_elements, p->n_caps, p->n_free,
-         (long long)p->n_nodes);
+         p->is_possible ? "true" : "false", p->n_refinements, p->n_vertices, p->n_faces, p->n_elements, p->n_caps,
+         p->n_free, (long long)p->n_nodes);
   for (const char *c = p->why; *c != '\0'; c++) {
     if (*c == '"' || *c == '\\') putchar('\\');
     putchar(*c);

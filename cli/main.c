@@ -25,8 +25,8 @@ static bool go_on(void *user, const char *stage, double fraction) {
 static bool show_step(void *user, const fs_step *s) {
   const bool *is_shown = user;
   if (*is_shown)
-    fprintf(stderr, "\r%3d  F %-18.12g gradient %-10.3g damping %-9.2g %6.1f s ", s->number, s->value, s->gradient, s->damping,
-            s->seconds);
+    fprintf(stderr, "\r%3d  F %-18.12g gradient %-10.3g damping %-9.2g %6.1f s ", s->number, s->value, s->gradient,
+            s->damping, s->seconds);
   return !is_interrupted;
 }
 
@@ -37,12 +37,17 @@ static void print_note(void *user, const char *text) {
 
 int exit_code(fs_status status) {
   switch (status) {
-  case FS_OK: return 0;
-  case FS_ERR_IO: return EXIT_FILE;
+  case FS_OK:
+    return 0;
+  case FS_ERR_IO:
+    return EXIT_FILE;
   case FS_ERR_NUMERIC:
-  case FS_ERR_MEMORY: return EXIT_NUMERIC;
-  case FS_ERR_CANCELLED: return EXIT_CANCELLED;
-  default: return EXIT_REFUSED;
+  case FS_ERR_MEMORY:
+    return EXIT_NUMERIC;
+  case FS_ERR_CANCELLED:
+    return EXIT_CANCELLED;
+  default:
+    return EXIT_REFUSED;
   }
 }
 
@@ -64,10 +69,10 @@ typedef struct job {
   char made_with[200];
 } job;
 
-#define TRY(call)                                                                                                       \
-  do {                                                                                                                 \
-    fs_status status_ = (call);                                                                                        \
-    if (status_ != FS_OK) return status_;                                                                              \
+#define TRY(call)                         \
+  do {                                    \
+    fs_status status_ = (call);           \
+    if (status_ != FS_OK) return status_; \
   } while (0)
 
 static fs_status no_memory(fs_context *ctx) {
@@ -82,7 +87,8 @@ static fs_status make_space(job *j) {
     TRY(fs_space_examine(j->ctx, j->mesh, &o));
     if (o.n_uncovered_faces > 0) {
       snprintf(j->ctx->message, sizeof j->ctx->message,
-               "%d faces take no patch without refinement (the first is face %d): %d faces are no quadrilaterals, %d special "
+               "%d faces take no patch without refinement (the first is face %d): %d faces are no quadrilaterals, %d "
+               "special "
                "vertices share a face with another one, %d are too close to the boundary",
                o.n_uncovered_faces, o.first_face, o.n_non_quads, o.n_close_specials, o.n_rim_specials);
       return FS_ERR_UNSUPPORTED;
@@ -173,7 +179,8 @@ static fs_status run_refine(job *j) {
   for (int32_t i = 0; i < a->n_outputs; i++) {
     fs_model model = {.name = a->name, .control = mesh, .made_with = j->made_with};
     if (a->output[i].exporter->what == FS_EXPORT_SURFACE || a->output[i].is_surface) {
-      snprintf(j->ctx->message, sizeof j->ctx->message, "%s: refine writes control nets (.obj, .off, .ply)", a->output[i].path);
+      snprintf(j->ctx->message, sizeof j->ctx->message, "%s: refine writes control nets (.obj, .off, .ply)",
+               a->output[i].path);
       return FS_ERR_UNSUPPORTED;
     }
     TRY(fs_export_file(j->ctx, &model, a->output[i].param, a->output[i].path));
@@ -186,7 +193,8 @@ static void describe(job *j) {
   int used = snprintf(j->made_with, sizeof j->made_with, "fairsurf %s", fs_version());
   if (a->command == COMMAND_FAIR) {
     used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, ", %s", a->functional->name);
-    for (int i = 0; a->functional->params != NULL && a->functional->params[i].name != NULL && used < (int)sizeof j->made_with; i++)
+    for (int i = 0;
+         a->functional->params != NULL && a->functional->params[i].name != NULL && used < (int)sizeof j->made_with; i++)
       used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, " %s=%g", a->functional->params[i].name,
                        a->functional_param[i]);
   }

@@ -31,8 +31,8 @@ fs_status read_marks(fs_context *ctx, const char *path, int32_t n_vertices, bool
       complain(ctx, path, line, "a vertex number is needed");
       status = FS_ERR_FORMAT;
     } else if (vertex < 0 || vertex >= n_vertices) {
-      snprintf(ctx->message, sizeof ctx->message, "%s, line %d: vertex %ld, but the mesh has the vertices 0 to %d", path, line,
-               vertex, n_vertices - 1);
+      snprintf(ctx->message, sizeof ctx->message, "%s, line %d: vertex %ld, but the mesh has the vertices 0 to %d",
+               path, line, vertex, n_vertices - 1);
       status = FS_ERR_FORMAT;
     } else {
       sscanf(end, "%15s", word);

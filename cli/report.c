@@ -83,7 +83,8 @@ static void put_report(FILE *file, const arguments *a, const fs_fair_report *r, 
   put_number(file, "peak_bytes", peak_bytes(), "\n}\n");
 }
 
-fs_status write_report(fs_context *ctx, const char *path, const arguments *a, const fs_fair_report *r, const timings *t) {
+fs_status write_report(fs_context *ctx, const char *path, const arguments *a, const fs_fair_report *r,
+                       const timings *t) {
   char *text = NULL;
   size_t size = 0;
   fs_files *files = NULL;
@@ -124,6 +125,6 @@ void print_report(FILE *file, const fs_fair_report *r, const timings *t) {
   fprintf(file, "%d free vertices, %d squares, %d caps\n", r->n_free, r->n_squares, r->n_caps);
   print_energy(file, "start", &r->start);
   print_energy(file, "end", &r->end);
-  fprintf(file, "%d steps, %d Hessians, %d factorisations, stopped by %s, %.2f s of %.2f s\n", r->n_steps, r->n_hessians,
-          r->n_factorisations, fs_stop_text(r->stop), t->fair, t->total);
+  fprintf(file, "%d steps, %d Hessians, %d factorisations, stopped by %s, %.2f s of %.2f s\n", r->n_steps,
+          r->n_hessians, r->n_factorisations, fs_stop_text(r->stop), t->fair, t->total);
 }

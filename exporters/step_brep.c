@@ -45,8 +45,7 @@ done:
 
 static fs_status write_points(brep *b, size_t n) {
   fs_status status = FS_OK;
-  for (size_t k = 0; k < n; k++)
-    FS_TRY(fs_step_point_entity(b->ctx, &b->points, b->step, b->point[k], &b->entity[k]));
+  for (size_t k = 0; k < n; k++) FS_TRY(fs_step_point_entity(b->ctx, &b->points, b->step, b->point[k], &b->entity[k]));
 done:
   return status;
 }

@@ -89,7 +89,8 @@ void fs_step_write_foot(fs_step *step, const fs_step_frame *frame, int64_t n_sol
   if (n_solids > 0)
     of[1] = write_representation(step, "ADVANCED_BREP_SHAPE_REPRESENTATION", origin, n_solids, solid, frame->context);
   if (n_shells > 0)
-    of[2] = write_representation(step, "MANIFOLD_SURFACE_SHAPE_REPRESENTATION", origin, n_shells, shell, frame->context);
+    of[2] =
+        write_representation(step, "MANIFOLD_SURFACE_SHAPE_REPRESENTATION", origin, n_shells, shell, frame->context);
   if (n_solids > 0 && n_shells > 0) {
     int64_t both[2] = {write_representation(step, "SHAPE_REPRESENTATION", origin, 0, NULL, frame->context), 0};
     for (int32_t k = 1; k < 3; k++) {

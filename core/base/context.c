@@ -12,8 +12,9 @@ const char *fs_version(void) { return FS_VERSION; }
 
 const char *fs_status_text(fs_status status) {
   switch (status) {
-#define X(name, text)                                                                                                  \
-  case FS_##name: return text;
+#define X(name, text) \
+  case FS_##name:     \
+    return text;
     FS_STATUS_LIST(X)
 #undef X
   }

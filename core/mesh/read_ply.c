@@ -213,4 +213,5 @@ done:
   return status;
 }
 
-const fs_reader fs_reader_ply = {"ply", "ply", "PLY, ascii and binary_little_endian: vertices and polygons", parse, NULL};
+const fs_reader fs_reader_ply = {"ply", "ply", "PLY, ascii and binary_little_endian: vertices and polygons", parse,
+                                 NULL};

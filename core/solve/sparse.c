@@ -73,8 +73,7 @@ fs_status fs_sparse_create(fs_context *ctx, int32_t n_blocks, int32_t n_sets, co
   }
   FS_ALLOC(ctx, a->row, total);
   memset(mark, 0, (size_t)n_blocks * sizeof *mark);
-  for (int32_t j = 0; j < n_blocks; j++)
-    column(j, sets_start, sets, set_start, member, mark, a->row + a->col_start[j]);
+  for (int32_t j = 0; j < n_blocks; j++) column(j, sets_start, sets, set_start, member, mark, a->row + a->col_start[j]);
   FS_ALLOC(ctx, a->value, 9 * (size_t)total);
   *sparse = a;
   a = NULL;

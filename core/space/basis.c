@@ -29,7 +29,8 @@ static void axis_fill(axis *a, int32_t degree, double t) {
 }
 
 /* jet[9][n]: derivatives of n functions given by their Bezier coefficients, function innermost. */
-static void tensor_jet(const fs_extraction *x, const double *bezier, int32_t n, const axis *u, const axis *v, double *jet) {
+static void tensor_jet(const fs_extraction *x, const double *bezier, int32_t n, const axis *u, const axis *v,
+                       double *jet) {
   memset(jet, 0, (size_t)N * (size_t)n * sizeof *jet);
   for (int d = 0; d < N; d++)
     for (int j = 0; j <= x->degree_v; j++)
@@ -110,7 +111,8 @@ static void fill_products(const double *segment, int32_t n_nodes, const axis *no
     for (int o = 0; o < 4; o++)
       for (int p = 0; p < 4; p++)
         for (int i = 0; i < 4; i++)
-          for (int k = 0; k < 4; k++) product[(((4 * o + p) * n_nodes + q) * 4 + i) * 4 + k] = value[o][i] * value[p][k];
+          for (int k = 0; k < 4; k++)
+            product[(((4 * o + p) * n_nodes + q) * 4 + i) * 4 + k] = value[o][i] * value[p][k];
   }
 }
 
@@ -124,7 +126,8 @@ static fs_status add_point(fs_context *ctx, fs_basis_table *table, const fs_extr
   for (int e = 0; e < N; e++)
     for (int32_t k = 0; k < n; k++) {
       table->by_dof[(((size_t)block * N + e) * n + k) * FS_POINT_BLOCK + lane] = jet[(size_t)e * n + k];
-      if (table->by_point != NULL) table->by_point[((size_t)point * N + e) * table->n_padded + k] = jet[(size_t)e * n + k];
+      if (table->by_point != NULL)
+        table->by_point[((size_t)point * N + e) * table->n_padded + k] = jet[(size_t)e * n + k];
     }
   if (x->chart == NULL) return FS_OK;
   tensor_jet(x, x->chart, 2, u, v, d);
@@ -133,7 +136,8 @@ static fs_status add_point(fs_context *ctx, fs_basis_table *table, const fs_extr
     return fs_fail(ctx, FS_ERR_NUMERIC, "the chart of a cap of valence %d is singular", x->valence);
   table->chart_weight[point] = weight * fabs(d[0] * d[3] - d[1] * d[2]);
   for (int r = 0; r < N; r++)
-    for (int c = 0; c < N; c++) table->inverse[(((size_t)block * N + r) * N + c) * FS_POINT_BLOCK + lane] = inverse[r][c];
+    for (int c = 0; c < N; c++)
+      table->inverse[(((size_t)block * N + r) * N + c) * FS_POINT_BLOCK + lane] = inverse[r][c];
   return FS_OK;
 }
 

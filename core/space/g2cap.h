@@ -43,7 +43,7 @@ typedef struct fs_g2cap_inner {
   int32_t valence, n_smooth;
   double *smooth; /* [valence][100][n_smooth]: functions of the whole cap; Bezier points in sector s, rows as in the
                      matrix of fs_g2cap */
-  double *local; /* [100][16]: functions of one sector that vanish in all others, the same in every sector */
+  double *local;  /* [100][16]: functions of one sector that vanish in all others, the same in every sector */
 } fs_g2cap_inner;
 
 /* The inner functions of valence 3, 5 .. 24 (FS_ERR_ARGUMENT otherwise). */

@@ -2,6 +2,7 @@
 /* Single role: what stands between a mesh and its space, and the refinements that remove it. */
 #include "space/space.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -105,14 +106,31 @@ static fs_status check_bounds(fs_context *ctx, const fs_mesh *mesh, const fs_spa
   return FS_OK;
 }
 
+/* The densities hold powers of length up to 22, so that sizes far from 1 leave the range of double. */
+static fs_status check_size(fs_context *ctx, const fs_mesh *mesh) {
+  fs_vec3 min = mesh->position[0], max = min;
+  for (int32_t v = 1; v < mesh->n_vertices; v++) {
+    fs_vec3 p = mesh->position[v];
+    min = (fs_vec3){fmin(min.x, p.x), fmin(min.y, p.y), fmin(min.z, p.z)};
+    max = (fs_vec3){fmax(max.x, p.x), fmax(max.y, p.y), fmax(max.z, p.z)};
+  }
+  double size = hypot(hypot(max.x - min.x, max.y - min.y), max.z - min.z);
+  double distance =
+      fmax(fmax(fabs(min.x), fabs(max.x)), fmax(fmax(fabs(min.y), fabs(max.y)), fmax(fabs(min.z), fabs(max.z))));
+  if (size >= 1e-10 && size <= 1e12 && distance <= 1e12) return FS_OK;
+  return fs_fail(ctx, FS_ERR_UNSUPPORTED,
+                 "the mesh measures %g across, %g from the origin: scale it to between 1e-10 and 1e12", size, distance);
+}
+
 static fs_status check_triangles(fs_context *ctx, const fs_mesh *mesh) {
   int32_t n_triangles = 0;
   for (int32_t f = 0; f < mesh->n_faces; f++) n_triangles += fs_mesh_face_size(mesh, f) == 3;
   if (mesh->n_faces <= MAX_TRIANGLES || n_triangles <= mesh->n_faces / 2) return FS_OK;
-  return fs_fail(ctx, FS_ERR_UNSUPPORTED,
-                 "%d of %d faces are triangles, and each would become three patches: make quadrilaterals first (MeshLab: "
-                 "Tri to Quad by smart triangle pairing), or ask for the refinement explicitly",
-                 n_triangles, mesh->n_faces);
+  return fs_fail(
+      ctx, FS_ERR_UNSUPPORTED,
+      "%d of %d faces are triangles, and each would become three patches: make quadrilaterals first (MeshLab: "
+      "Tri to Quad by smart triangle pairing), or ask for the refinement explicitly",
+      n_triangles, mesh->n_faces);
 }
 
 /* Whether another refinement is wanted; with_averaging: which. */
@@ -121,6 +139,7 @@ static fs_status next_step(fs_context *ctx, const fs_mesh *mesh, int32_t n_done,
   fs_status status = FS_OK;
   fs_space_obstacles o;
   char reason[200];
+  FS_TRY(check_size(ctx, mesh));
   FS_TRY(fs_space_examine(ctx, mesh, &o));
   FS_TRY(check_bounds(ctx, mesh, &o));
   *with_averaging = !o.special_near_boundary;
@@ -128,18 +147,20 @@ static fs_status next_step(fs_context *ctx, const fs_mesh *mesh, int32_t n_done,
   if (n_done < at_least) goto done;
   if (o.n_uncovered_faces == 0) {
     if (o.n_elements == 0)
-      status = fs_fail(ctx, FS_ERR_UNSUPPORTED, "no face has a full net: each of the %d faces has a vertex on the boundary",
-                       mesh->n_faces);
+      status = fs_fail(ctx, FS_ERR_UNSUPPORTED,
+                       "no face has a full net: each of the %d faces has a vertex on the boundary", mesh->n_faces);
     goto done;
   }
   if (at_least == 0 && n_done == 0) FS_TRY(check_triangles(ctx, mesh));
   describe(&o, reason, sizeof reason);
   if (n_done >= at_least + MAX_AUTOMATIC) {
-    status = fs_fail(ctx, FS_ERR_UNSUPPORTED, "after %d refinements no patch fits face %d: %s", n_done, o.first_face, reason);
+    status = fs_fail(ctx, FS_ERR_UNSUPPORTED, "after %d refinements no patch fits face %d: %s", n_done, o.first_face,
+                     reason);
     goto done;
   }
   fs_note(ctx, "refined by %s, because of %s",
-          *with_averaging ? "averagings" : "Catmull-Clark (averagings would leave special vertices at the boundary)", reason);
+          *with_averaging ? "averagings" : "Catmull-Clark (averagings would leave special vertices at the boundary)",
+          reason);
 done:
   return status;
 }

@@ -58,14 +58,9 @@ static fs_status build(fs_context *ctx, const fs_mesh *mesh, int32_t rule, const
     int32_t net[N_DOFS];
     if (owner[f] != rule) continue;
     if (index == FS_NONE)
-      FS_TRY(fs_builder_add_extraction(builder,
-                                       &(fs_extraction){.degree_u = 3,
-                                                        .degree_v = 3,
-                                                        .n_dofs = N_DOFS,
-                                                        .E = E,
-                                                        .segment = S,
-                                                        .valence = 4},
-                                       &index));
+      FS_TRY(fs_builder_add_extraction(
+          builder, &(fs_extraction){.degree_u = 3, .degree_v = 3, .n_dofs = N_DOFS, .E = E, .segment = S, .valence = 4},
+          &index));
     collect_net(mesh, mesh->face_start[f], net);
     FS_TRY(fs_builder_add_element(builder, mesh->face_start[f], index, net));
   }
@@ -73,5 +68,5 @@ done:
   return status;
 }
 
-const fs_patch_rule fs_rule_bspline = {
-    "bspline", "bicubic B-spline squares on faces whose vertices all have valence 4", 2, claim, build};
+const fs_patch_rule fs_rule_bspline = {"bspline", "bicubic B-spline squares on faces whose vertices all have valence 4",
+                                       2, claim, build};

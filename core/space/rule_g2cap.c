@@ -151,5 +151,5 @@ done:
   return status;
 }
 
-const fs_patch_rule fs_rule_g2cap = {
-    "g2cap", "G2 caps of degree (9, 9) around interior vertices of valence 3, 5 .. 24", 2, claim, build};
+const fs_patch_rule fs_rule_g2cap = {"g2cap", "G2 caps of degree (9, 9) around interior vertices of valence 3, 5 .. 24",
+                                     2, claim, build};

@@ -58,4 +58,5 @@ static fs_status build_nothing(fs_context *ctx, const fs_mesh *mesh, int32_t rul
   return FS_OK;
 }
 
-const fs_patch_rule fs_rule_trim = {"trim", "faces with a boundary vertex carry no element", 2, claim_trim, build_nothing};
+const fs_patch_rule fs_rule_trim = {"trim", "faces with a boundary vertex carry no element", 2, claim_trim,
+                                    build_nothing};

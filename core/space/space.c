@@ -137,10 +137,11 @@ done:
 static fs_status check_owners(fs_context *ctx, const fs_mesh *mesh, const int32_t *owner) {
   for (int32_t f = 0; f < mesh->n_faces; f++)
     if (owner[f] == FS_NONE)
-      return fs_fail(ctx, FS_ERR_UNSUPPORTED,
-                     "no patch fits face %d: it is no quadrilateral, lies next to one that is not, or its special vertex is "
-                     "too close to another one or to the boundary",
-                     f);
+      return fs_fail(
+          ctx, FS_ERR_UNSUPPORTED,
+          "no patch fits face %d: it is no quadrilateral, lies next to one that is not, or its special vertex is "
+          "too close to another one or to the boundary",
+          f);
   return FS_OK;
 }
 
@@ -238,7 +239,8 @@ fs_status fs_space_validate(fs_context *ctx, const fs_space *space) {
       if (other == FS_NONE) continue;
       const fs_element *o = &space->element[other];
       if (o->neighbour[e->neighbour_side[side]] != i || o->neighbour_side[e->neighbour_side[side]] != side)
-        return fs_fail(ctx, FS_ERR_TOPOLOGY, "side %d of element %d meets element %d, but not the other way", side, i, other);
+        return fs_fail(ctx, FS_ERR_TOPOLOGY, "side %d of element %d meets element %d, but not the other way", side, i,
+                       other);
     }
   }
 done:

@@ -77,8 +77,8 @@ FS_API fs_status fs_mesh_summarise(fs_context *ctx, const fs_mesh *mesh, fs_mesh
 
 /* What a file may say about its control mesh besides the polygons. All zero: nothing. */
 typedef struct fs_mesh_notes {
-  uint8_t *fixed;                /* [n_vertices] 1 where fairing kept the vertex; NULL: not said */
-  char *made_with, *functional;  /* as in fs_model; NULL: not said */
+  uint8_t *fixed;               /* [n_vertices] 1 where fairing kept the vertex; NULL: not said */
+  char *made_with, *functional; /* as in fs_model; NULL: not said */
   int32_t n_refinements;
 } fs_mesh_notes;
 FS_API void fs_mesh_notes_clear(fs_context *ctx, fs_mesh_notes *notes);

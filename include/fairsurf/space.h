@@ -22,12 +22,14 @@ extern "C" {
 
 typedef struct fs_extraction {
   int32_t degree_u, degree_v, n_dofs;
-  int32_t n_offsets; /* the last n_offsets dofs are no control vertices: they add functions to a surface that is complete
+  int32_t
+      n_offsets; /* the last n_offsets dofs are no control vertices: they add functions to a surface that is complete
                         without them. Rows of E sum to 1 over the others */
   double *E; /* [(degree_u + 1)(degree_v + 1)][n_dofs]; Bezier point (i, j), i along u, is row i + (degree_u + 1) j */
-  double *chart;    /* NULL: the unit square is the chart; else Bezier points [rows of E][2] of the element in the plane
+  double *chart; /* NULL: the unit square is the chart; else Bezier points [rows of E][2] of the element in the plane
                      domain of its cap, scaled so that the area per element is 1 on average */
-  double *segment;  /* NULL, or [4][4]: E is the product of this matrix with itself for u and for v, bicubic, dofs u fastest */
+  double *
+      segment; /* NULL, or [4][4]: E is the product of this matrix with itself for u and for v, bicubic, dofs u fastest */
   int32_t valence;  /* of the cap; 4 for regular elements */
   bool is_borrowed; /* E and chart belong to the context */
 } fs_extraction;
@@ -44,8 +46,9 @@ typedef struct fs_element {
 /* A cap and its own dofs. */
 typedef struct fs_cap {
   int32_t vertex, valence;
-  int32_t first_dof, n_dofs; /* its inner coefficients: smooth ones first, then 16 per sector in the order of the sectors */
-  int32_t halfedge;          /* along the spoke from which sectors are counted, from the vertex; the coefficients depend on it */
+  int32_t first_dof,
+      n_dofs;       /* its inner coefficients: smooth ones first, then 16 per sector in the order of the sectors */
+  int32_t halfedge; /* along the spoke from which sectors are counted, from the vertex; the coefficients depend on it */
 } fs_cap;
 
 typedef struct fs_space {
@@ -106,12 +109,12 @@ FS_API fs_status fs_space_validate(fs_context *ctx, const fs_space *space);
 
 /* What stands between a mesh and its space. */
 typedef struct fs_space_obstacles {
-  int32_t n_non_quads;        /* faces not of 4 vertices that a rule would have to cover or look at */
-  int32_t n_close_specials;   /* special vertices that share a face with another one */
-  int32_t n_rim_specials;     /* special vertices, or non-quads, that touch the boundary zone of trimmed faces */
-  int32_t n_uncovered_faces;  /* faces that no rule takes as the mesh stands; 0: the space can be made */
+  int32_t n_non_quads;       /* faces not of 4 vertices that a rule would have to cover or look at */
+  int32_t n_close_specials;  /* special vertices that share a face with another one */
+  int32_t n_rim_specials;    /* special vertices, or non-quads, that touch the boundary zone of trimmed faces */
+  int32_t n_uncovered_faces; /* faces that no rule takes as the mesh stands; 0: the space can be made */
   int32_t n_elements, n_cap_elements, n_caps; /* what the space would consist of: elements, those of caps included */
-  int32_t first_face;         /* an uncovered face, or FS_NONE */
+  int32_t first_face;                         /* an uncovered face, or FS_NONE */
   int32_t bad_vertex;         /* interior vertex of valence 2 or above 24, which no refinement mends, or FS_NONE */
   bool special_near_boundary; /* a special vertex at edge distance 1 from the boundary, or a non-quad that touches it */
 } fs_space_obstacles;

@@ -14,9 +14,7 @@
 
 /* ---- CHOLMOD allocates through SuiteSparse_config ---- */
 
-static struct {
-  int64_t fail_at, n_allocations, n_live;
-} cholmod_memory;
+static struct { int64_t fail_at, n_allocations, n_live; } cholmod_memory;
 
 static bool is_failing(void) { return ++cholmod_memory.n_allocations == cholmod_memory.fail_at; }
 static void *counted_malloc(size_t size) {
@@ -54,10 +52,10 @@ static fs_status open_counter(void *user, const char *extension, fs_sink *sink) 
 
 /* ---- the path ---- */
 
-#define TRY(call)                                                                                                       \
-  do {                                                                                                                 \
-    status = (call);                                                                                                   \
-    if (status != FS_OK) goto done;                                                                                    \
+#define TRY(call)                   \
+  do {                              \
+    status = (call);                \
+    if (status != FS_OK) goto done; \
   } while (0)
 
 static fs_status write_all(fs_context *ctx, const fs_model *model) {
@@ -130,7 +128,8 @@ static void test_every_allocation(void **state) {
       n++;
     }
     assert_true(n > (cholmod_too[kind] ? 20 : 200));
-    print_message("%s: %lld allocations failed in turn\n", cholmod_too[kind] ? "CHOLMOD" : "fairsurf", (long long)n - 1);
+    print_message("%s: %lld allocations failed in turn\n", cholmod_too[kind] ? "CHOLMOD" : "fairsurf",
+                  (long long)n - 1);
   }
   fs_mesh_free(&mesh_ctx, mesh);
 }

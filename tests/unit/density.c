@@ -53,9 +53,9 @@ static void graph_jet(const double *shape, double u, double v, double jet[N][3])
 static void torus_jet(const double *shape, double u, double v, double jet[N][3]) {
   double R = shape[0], r = shape[1], q = R + r * cos(v), q1 = -r * sin(v), q2 = -r * cos(v), q3 = r * sin(v);
   double c = cos(u), s = sin(u);
-  double value[N][3] = {{-q * s, q * c, 0},    {q1 * c, q1 * s, r * cos(v)},   {-q * c, -q * s, 0},
-                        {-q1 * s, q1 * c, 0},  {q2 * c, q2 * s, -r * sin(v)},  {q * s, -q * c, 0},
-                        {-q1 * c, -q1 * s, 0}, {-q2 * s, q2 * c, 0},           {q3 * c, q3 * s, -r * cos(v)}};
+  double value[N][3] = {{-q * s, q * c, 0},    {q1 * c, q1 * s, r * cos(v)},  {-q * c, -q * s, 0},
+                        {-q1 * s, q1 * c, 0},  {q2 * c, q2 * s, -r * sin(v)}, {q * s, -q * c, 0},
+                        {-q1 * c, -q1 * s, 0}, {-q2 * s, q2 * c, 0},          {q3 * c, q3 * s, -r * cos(v)}};
   memcpy(jet, value, sizeof value);
 }
 
@@ -65,12 +65,12 @@ static void test_graphs(void **state) {
   static const struct {
     double shape[16], S;
   } graph[] = {
-      {{[5] = 1}, 0.05818831883894},                /* x y */
-      {{[2] = 0.5, [8] = 0.5}, 0.2075662456293},    /* (x^2 + y^2) / 2 */
-      {{[2] = -0.5, [8] = 0.5}, 0.06765808515898},  /* (x^2 - y^2) / 2 */
-      {{[12] = 1}, 3.091739546388},                 /* x^3 */
-      {{[9] = 1}, 0.8794643847793},                 /* x^2 y */
-      {{[15] = 1}, 2.945106176589},                 /* x^3 y^3 */
+      {{[5] = 1}, 0.05818831883894},               /* x y */
+      {{[2] = 0.5, [8] = 0.5}, 0.2075662456293},   /* (x^2 + y^2) / 2 */
+      {{[2] = -0.5, [8] = 0.5}, 0.06765808515898}, /* (x^2 - y^2) / 2 */
+      {{[12] = 1}, 3.091739546388},                /* x^3 */
+      {{[9] = 1}, 0.8794643847793},                /* x^2 y */
+      {{[15] = 1}, 2.945106176589},                /* x^3 y^3 */
   };
   for (size_t i = 0; i < sizeof graph / sizeof graph[0]; i++) {
     double S = integrate(&fs_density_curvature_variation, graph_jet, graph[i].shape, 1, 1);
@@ -165,7 +165,8 @@ static void test_tangential_definition(void **state) {
 /* The contractions against plain loops, for every kernel set. */
 static void test_contractions(void **state) {
   enum { M = 19, PADDED = 24 };
-  static double by_dof[N * M * B], by_point[B * N * PADDED], c[3 * M], x[N * 3 * B], df[N * 3 * B], ddf[45 * 9 * B], g[3 * M];
+  static double by_dof[N * M * B], by_point[B * N * PADDED], c[3 * M], x[N * 3 * B], df[N * 3 * B], ddf[45 * 9 * B],
+      g[3 * M];
   static double h[6 * PADDED * PADDED];
   static const int pairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
   const fs_kernels *all[4];
@@ -211,7 +212,8 @@ static void test_contractions(void **state) {
           for (int i = 0; i < N; i++)
             for (int j = 0; j < N; j++)
               for (int q = 0; q < B; q++) {
-                double second = i <= j ? ddf[(pair(i, j) * 9 + 3 * a + b) * B + q] : ddf[(pair(j, i) * 9 + 3 * b + a) * B + q];
+                double second =
+                    i <= j ? ddf[(pair(i, j) * 9 + 3 * a + b) * B + q] : ddf[(pair(j, i) * 9 + 3 * b + a) * B + q];
                 sum += by_dof[(i * M + m) * B + q] * second * by_dof[(j * M + k) * B + q];
               }
           assert_true(fabs(sum - h[(p * PADDED + m) * PADDED + k]) <= 1e-11);
@@ -221,8 +223,8 @@ static void test_contractions(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_graphs),      cmocka_unit_test(test_tori),
-      cmocka_unit_test(test_derivatives), cmocka_unit_test(test_tangential_definition),
+      cmocka_unit_test(test_graphs),       cmocka_unit_test(test_tori),
+      cmocka_unit_test(test_derivatives),  cmocka_unit_test(test_tangential_definition),
       cmocka_unit_test(test_contractions),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

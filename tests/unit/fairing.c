@@ -25,11 +25,13 @@ typedef struct fixture {
   double *x, *g;
 } fixture;
 
-static void fixture_create(fixture *f, fs_mesh *mesh, const bool *fixed, double weight_S, double weight_Q, int32_t nodes) {
+static void fixture_create(fixture *f, fs_mesh *mesh, const bool *fixed, double weight_S, double weight_Q,
+                           int32_t nodes) {
   *f = (fixture){.ctx = test_context()};
   assert_int_equal(fs_space_create(&f->ctx, mesh, &f->space), FS_OK);
   assert_int_equal(fs_space_validate(&f->ctx, f->space), FS_OK);
-  assert_int_equal(fs_problem_create(&f->ctx, f->space, 2, S_and_Q, fixed, nodes, nodes, f->space->start, &f->problem), FS_OK);
+  assert_int_equal(fs_problem_create(&f->ctx, f->space, 2, S_and_Q, fixed, nodes, nodes, f->space->start, &f->problem),
+                   FS_OK);
   f->problem->weight[0] = weight_S;
   f->problem->weight[1] = weight_Q;
   f->n = 3 * f->problem->n_free;
@@ -129,15 +131,15 @@ static void test_threads(void **state) {
     f[i] = (fixture){.ctx = ctx};
     f[i].ctx.n_threads = n_threads[i];
     assert_int_equal(fs_space_create(&f[i].ctx, mesh, &f[i].space), FS_OK);
-    assert_int_equal(
-        fs_problem_create(&f[i].ctx, f[i].space, 2, S_and_Q, NULL, 5, 5, f[i].space->start, &f[i].problem), FS_OK);
+    assert_int_equal(fs_problem_create(&f[i].ctx, f[i].space, 2, S_and_Q, NULL, 5, 5, f[i].space->start, &f[i].problem),
+                     FS_OK);
     f[i].problem->weight[0] = f[i].problem->weight[1] = 1;
     f[i].n = 3 * f[i].problem->n_free;
     f[i].x = calloc((size_t)f[i].n, sizeof(double));
     f[i].g = calloc((size_t)f[i].n, sizeof(double));
     double integral[2];
-    assert_int_equal(
-        fs_problem_evaluate(f[i].problem, FS_HESSIAN, integral, NULL, f[i].g, f[i].problem->pattern), FS_OK);
+    assert_int_equal(fs_problem_evaluate(f[i].problem, FS_HESSIAN, integral, NULL, f[i].g, f[i].problem->pattern),
+                     FS_OK);
     F[i] = integral[0] + integral[1];
     assert_true(F[i] == F[0]);
     assert_memory_equal(f[i].g, f[0].g, (size_t)f[0].n * sizeof(double));
@@ -153,7 +155,8 @@ static void test_threads(void **state) {
 
 typedef struct faired {
   fs_fair_report report;
-  double S_undisturbed, deviation; /* of points of the surface from the best sphere or cylinder, relative to its radius */
+  double S_undisturbed,
+      deviation; /* of points of the surface from the best sphere or cylinder, relative to its radius */
 } faired;
 
 /* Radius and centre of the least squares sphere |x|^2 = 2 c.x + d through points (algebraic fit, then r^2 = d + |c|^2); with
@@ -239,7 +242,8 @@ static void check_comes_back(fs_mesh *(*make)(void), bool is_cylinder) {
 static fs_mesh *sphere_cap(void) {
   fs_mesh *mesh = test_grid(12, 12, NULL);
   for (int32_t v = 0; v < mesh->n_vertices; v++) {
-    double unit = tan(35 * acos(-1.0) / 180) / 6, x = (mesh->position[v].x - 6) * unit, y = (mesh->position[v].y - 6) * unit;
+    double unit = tan(35 * acos(-1.0) / 180) / 6, x = (mesh->position[v].x - 6) * unit,
+           y = (mesh->position[v].y - 6) * unit;
     double length = sqrt(1 + x * x + y * y);
     mesh->position[v] = (fs_vec3){x / length, y / length, 1 / length};
   }
@@ -360,9 +364,12 @@ static void test_course(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_derivatives_squares),       cmocka_unit_test(test_derivatives_caps),
-      cmocka_unit_test(test_derivatives_repeated_dofs), cmocka_unit_test(test_threads),
-      cmocka_unit_test(test_course),                    cmocka_unit_test(test_sphere_comes_back),
+      cmocka_unit_test(test_derivatives_squares),
+      cmocka_unit_test(test_derivatives_caps),
+      cmocka_unit_test(test_derivatives_repeated_dofs),
+      cmocka_unit_test(test_threads),
+      cmocka_unit_test(test_course),
+      cmocka_unit_test(test_sphere_comes_back),
       cmocka_unit_test(test_cylinder_comes_back),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

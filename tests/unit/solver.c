@@ -114,7 +114,9 @@ static fs_status rosenbrock(const double *x, int32_t n, double *f, double *g, fs
   return FS_OK;
 }
 enum { GROUPS = 5 };
-static fs_status r_value(void *self, const double *x, double *f) { return (void)self, rosenbrock(x, GROUPS, f, NULL, NULL); }
+static fs_status r_value(void *self, const double *x, double *f) {
+  return (void)self, rosenbrock(x, GROUPS, f, NULL, NULL);
+}
 static fs_status r_gradient(void *self, const double *x, double *f, double *g) {
   return (void)self, rosenbrock(x, GROUPS, f, g, NULL);
 }
@@ -171,7 +173,9 @@ static void test_rosenbrock(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pattern), cmocka_unit_test(test_solve),      cmocka_unit_test(test_diagonal),
+      cmocka_unit_test(test_pattern),
+      cmocka_unit_test(test_solve),
+      cmocka_unit_test(test_diagonal),
       cmocka_unit_test(test_rosenbrock),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
