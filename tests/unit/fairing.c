@@ -362,15 +362,67 @@ static void test_course(void **state) {
   fs_mesh_free(&ctx, mesh);
 }
 
+/* ---- graphs as bicubic patches: one element whose dofs are its Bezier points ---- */
+
+/* Bezier coefficient k of x^power, degree 3: C(k, power) / C(3, power). */
+static double monomial_coefficient(int power, int k) {
+  static const double binomial[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
+  return binomial[k][power] / binomial[3][power];
+}
+
+static void test_graph_patches(void **state) {
+  static const struct {
+    double weight[4][4], S; /* z = sum of weight[i][j] x^i y^j */
+  } graph[] = {
+      {{[1] = {[1] = 1}}, 0.05818831883894},
+      {{[0] = {[2] = 0.5}, [2] = {[0] = 0.5}}, 0.2075662456293},
+      {{[0] = {[2] = -0.5}, [2] = {[0] = 0.5}}, 0.06765808515898},
+      {{[3] = {[0] = 1}}, 3.091739546388},
+      {{[2] = {[1] = 1}}, 0.8794643847793},
+      {{[3] = {[3] = 1}}, 2.945106176589},
+  };
+  double E[16 * 16] = {0};
+  int32_t dof[16];
+  fs_extraction extraction = {.degree_u = 3, .degree_v = 3, .n_dofs = 16, .E = E, .valence = 4, .is_borrowed = true};
+  fs_element element = {.neighbour = {FS_NONE, FS_NONE, FS_NONE, FS_NONE}};
+  bool fixed[16] = {true, true};
+  (void)state;
+  for (int i = 0; i < 16; i++) {
+    E[17 * i] = 1;
+    dof[i] = i;
+  }
+  for (size_t g = 0; g < sizeof graph / sizeof graph[0]; g++) {
+    fs_context ctx = test_context();
+    fs_vec3 c[16];
+    fs_energy energy;
+    fs_fair_options options = {.fixed = fixed, .n_nodes_square = 32, .n_nodes_cap = 32};
+    for (int k = 0; k < 16; k++) {
+      c[k] = (fs_vec3){k % 4 / 3.0, k / 4 / 3.0, 0};
+      for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+          c[k].z += graph[g].weight[i][j] * monomial_coefficient(i, k % 4) * monomial_coefficient(j, k / 4);
+    }
+    fs_space space = {.n_vertices = 16,
+                      .n_dofs = 16,
+                      .n_elements = 1,
+                      .n_extractions = 1,
+                      .continuity = 2,
+                      .n_element_dofs = 16,
+                      .element = &element,
+                      .extraction = &extraction,
+                      .dof = dof,
+                      .start = c};
+    assert_int_equal(fs_fair_energy(&ctx, &space, &options, c, &energy), FS_OK);
+    assert_true(fabs(energy.S - graph[g].S) <= 1e-10 * graph[g].S);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_derivatives_squares),
-      cmocka_unit_test(test_derivatives_caps),
-      cmocka_unit_test(test_derivatives_repeated_dofs),
-      cmocka_unit_test(test_threads),
-      cmocka_unit_test(test_course),
-      cmocka_unit_test(test_sphere_comes_back),
-      cmocka_unit_test(test_cylinder_comes_back),
+      cmocka_unit_test(test_graph_patches),     cmocka_unit_test(test_derivatives_squares),
+      cmocka_unit_test(test_derivatives_caps),  cmocka_unit_test(test_derivatives_repeated_dofs),
+      cmocka_unit_test(test_threads),           cmocka_unit_test(test_course),
+      cmocka_unit_test(test_sphere_comes_back), cmocka_unit_test(test_cylinder_comes_back),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
