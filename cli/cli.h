@@ -42,7 +42,7 @@ void parse_arguments(int argc, char **argv, arguments *arguments);
 int exit_code(fs_status status);
 
 /* What the command info prints. */
-fs_status print_info(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh);
+fs_status print_info(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh, const fs_mesh_notes *notes);
 
 /* marked[n_vertices] from a file of marks: one vertex number per line, counted from 0, alone or followed by "fixed" or
    "free"; # starts a comment. */

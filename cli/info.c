@@ -115,15 +115,27 @@ static void print_json(const fs_mesh_summary *s, const plan *p) {
   printf("\"}\n}\n");
 }
 
-fs_status print_info(fs_context *ctx, const arguments *a, const fs_mesh *mesh) {
+/* What the file says besides its mesh; nothing where it says nothing. */
+static void print_notes(const fs_mesh *mesh, const fs_mesh_notes *notes) {
+  int32_t n_fixed = 0;
+  for (int32_t v = 0; v < mesh->n_vertices && notes->fixed != NULL; v++) n_fixed += notes->fixed[v] != 0;
+  if (notes->made_with != NULL) printf("made with: %s\n", notes->made_with);
+  if (notes->functional != NULL) printf("minimises: %s\n", notes->functional);
+  if (notes->n_refinements > 0) printf("refined: %d times before\n", notes->n_refinements);
+  if (notes->fixed != NULL) printf("marks: %d fixed vertices\n", n_fixed);
+}
+
+fs_status print_info(fs_context *ctx, const arguments *a, const fs_mesh *mesh, const fs_mesh_notes *notes) {
   fs_mesh_summary summary;
   plan p;
   fs_status status = fs_mesh_summarise(ctx, mesh, &summary);
   if (status == FS_OK) status = make_plan(ctx, mesh, a->refine, &p);
   if (status != FS_OK) return status;
-  if (a->json)
+  if (a->json) {
     print_json(&summary, &p);
-  else
+  } else {
     print_text(a, &summary, &p);
+    print_notes(mesh, notes);
+  }
   return FS_OK;
 }

@@ -57,6 +57,7 @@ typedef struct job {
   fs_context *ctx;
   const arguments *arguments;
   fs_mesh *mesh, *control; /* as read; with the final positions */
+  fs_mesh_notes notes;     /* what the file says besides */
   fs_refinement *step[FS_MAX_REFINEMENTS];
   int32_t n_steps;
   const fs_mesh *fine; /* of the last step, or the mesh as read */
@@ -67,6 +68,7 @@ typedef struct job {
   fs_fair_report report;
   timings seconds;
   char made_with[200];
+  const char *functional; /* that the control net minimises: part of made_with or of the notes; or NULL */
 } job;
 
 #define TRY(call)                         \
@@ -104,14 +106,24 @@ static fs_status make_space(job *j) {
   return FS_OK;
 }
 
-/* The marks of the input mesh, carried through the refinements, are added to the rim. */
+/* mark[n_vertices] of the mesh as read: those of its own file, and those of --fixed. */
+static fs_status collect_marks(job *j, bool *mark) {
+  if (j->arguments->fixed != NULL)
+    TRY(read_marks(j->ctx, j->arguments->fixed, j->mesh->n_vertices, mark));
+  else
+    memset(mark, 0, (size_t)j->mesh->n_vertices);
+  for (int32_t v = 0; v < j->mesh->n_vertices && j->notes.fixed != NULL; v++) mark[v] |= j->notes.fixed[v] != 0;
+  return FS_OK;
+}
+
+/* The marks of the input mesh, carried through the refinements, are added to the fixed vertices. */
 static fs_status add_marks(job *j) {
   bool *mark, *fine;
   fs_status status;
-  if (j->arguments->fixed == NULL) return FS_OK;
+  if (j->arguments->fixed == NULL && j->notes.fixed == NULL) return FS_OK;
   mark = malloc((size_t)j->mesh->n_vertices);
   if (mark == NULL) return no_memory(j->ctx);
-  status = read_marks(j->ctx, j->arguments->fixed, j->mesh->n_vertices, mark);
+  status = collect_marks(j, mark);
   for (int32_t s = 0; s < j->n_steps && status == FS_OK; s++) {
     fine = malloc((size_t)j->step[s]->mesh->n_vertices);
     if (fine == NULL) {
@@ -162,7 +174,9 @@ static fs_status write_outputs(job *j) {
                       .surface = is_surface ? j->surface : NULL,
                       .colour = o->colour,
                       .fixed = (const uint8_t *)j->fixed,
-                      .made_with = j->made_with};
+                      .made_with = j->made_with,
+                      .functional = j->functional,
+                      .n_refinements = j->notes.n_refinements + j->n_steps};
     TRY(fs_export_file(j->ctx, &model, o->param, o->path));
   }
   return FS_OK;
@@ -177,9 +191,12 @@ static fs_status run_refine(job *j) {
     mesh = j->step[j->n_steps]->mesh;
   }
   for (int32_t i = 0; i < a->n_outputs; i++) {
-    fs_model model = {.name = a->name, .control = mesh, .made_with = j->made_with};
+    fs_model model = {.name = a->name,
+                      .control = mesh,
+                      .made_with = j->made_with,
+                      .n_refinements = j->notes.n_refinements + j->n_steps};
     if (a->output[i].exporter->what == FS_EXPORT_SURFACE || a->output[i].is_surface) {
-      snprintf(j->ctx->message, sizeof j->ctx->message, "%s: refine writes control nets (.obj, .off, .ply)",
+      snprintf(j->ctx->message, sizeof j->ctx->message, "%s: refine writes control nets (.obj, .off, .ply, .drc)",
                a->output[i].path);
       return FS_ERR_UNSUPPORTED;
     }
@@ -191,8 +208,11 @@ static fs_status run_refine(job *j) {
 static void describe(job *j) {
   const arguments *a = j->arguments;
   int used = snprintf(j->made_with, sizeof j->made_with, "fairsurf %s", fs_version());
+  j->functional = j->notes.functional;
   if (a->command == COMMAND_FAIR) {
-    used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, ", %s", a->functional->name);
+    used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, ", ");
+    j->functional = j->made_with + used;
+    used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, "%s", a->functional->name);
     for (int i = 0;
          a->functional->params != NULL && a->functional->params[i].name != NULL && used < (int)sizeof j->made_with; i++)
       used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, " %s=%g", a->functional->params[i].name,
@@ -203,14 +223,17 @@ static void describe(job *j) {
 static fs_status run(job *j) {
   const arguments *a = j->arguments;
   double start = now(), then = start, t;
+  TRY(fs_mesh_read_notes(j->ctx, a->mesh, &j->mesh, &j->notes));
   describe(j);
-  TRY(fs_mesh_read(j->ctx, a->mesh, &j->mesh));
   j->seconds.read = (t = now()) - then, then = t;
-  if (a->command == COMMAND_INFO) return print_info(j->ctx, a, j->mesh);
+  if (a->command == COMMAND_INFO) return print_info(j->ctx, a, j->mesh, &j->notes);
   if (a->command == COMMAND_REFINE) return run_refine(j);
   TRY(make_space(j));
   j->seconds.space = (t = now()) - then, then = t;
-  if (a->command == COMMAND_FAIR) TRY(make_fair(j));
+  if (a->command == COMMAND_FAIR)
+    TRY(make_fair(j));
+  else
+    TRY(add_marks(j));
   j->seconds.fair = (t = now()) - then, then = t;
   TRY(write_outputs(j));
   j->seconds.export = (t = now()) - then;
@@ -228,6 +251,7 @@ static void job_free(job *j) {
   for (int32_t s = 0; s < j->n_steps; s++) fs_refinement_free(j->ctx, j->step[s]);
   fs_mesh_free(j->ctx, j->control);
   fs_mesh_free(j->ctx, j->mesh);
+  fs_mesh_notes_clear(j->ctx, &j->notes);
   free(j->c);
   free(j->fixed);
 }

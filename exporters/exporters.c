@@ -8,7 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const fs_exporter fs_exporter_povray, fs_exporter_openscad, fs_exporter_threemf;
+extern const fs_exporter fs_exporter_povray, fs_exporter_openscad, fs_exporter_threemf, fs_exporter_html,
+    fs_exporter_step;
+extern const fs_exporter fs_exporter_draco, fs_exporter_glb;
 
 const fs_exporter *const fs_exporters[] = {&fs_exporter_povray,
                                            &fs_exporter_obj,
@@ -16,8 +18,16 @@ const fs_exporter *const fs_exporters[] = {&fs_exporter_povray,
                                            &fs_exporter_ply,
                                            &fs_exporter_stl,
                                            &fs_exporter_openscad,
+                                           &fs_exporter_step,
+                                           &fs_exporter_glb,
+#ifdef FS_HAVE_DRACO
+                                           &fs_exporter_draco,
+#endif
 #ifdef FS_HAVE_THREEMF
                                            &fs_exporter_threemf,
+#endif
+#ifdef FS_HAVE_HTML
+                                           &fs_exporter_html,
 #endif
                                            NULL};
 

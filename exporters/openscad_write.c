@@ -24,7 +24,7 @@ static void comment_line(fs_writer *w, const char *before, const char *line, con
 
 static void write_use(fs_writer *w, const fs_openscad_file *f) {
   const char *name = f->name;
-  comment_line(w, "//\n//   use <", f->model->name, ".scad>\n");
+  comment_line(w, "//\n//   use <", f->model->file != NULL ? f->model->file : f->model->name, ".scad>\n");
   if (f->rim->n_loops == 0) {
     fs_writer_printf(w, "//   %s();          // a solid\n", name);
     fs_writer_printf(w, "//   %s(size = 2);  // twice as large\n", name);

@@ -8,51 +8,6 @@
 #include "base/base.h"
 #include "math/vec3.h"
 
-/* The value number k (from 0) in ascending order of value[n]; reorders value. Hoare's selection [Hoare 1961]. */
-static double select_value(double *value, size_t n, size_t k) {
-  size_t low = 0, high = n - 1;
-  while (low < high) {
-    double pivot = value[low + (high - low) / 2];
-    size_t i = low, j = high;
-    for (;;) {
-      while (value[i] < pivot) i++;
-      while (value[j] > pivot) j--;
-      if (i >= j) break;
-      double swapped = value[i];
-      value[i++] = value[j], value[j--] = swapped;
-    }
-    /* now value[low .. j] <= pivot <= value[j + 1 .. high] */
-    if (k <= j)
-      high = j;
-    else
-      low = j + 1;
-  }
-  return value[k];
-}
-
-/* Values between the 2nd and the 98th of 100 get the colours between: a few wild points must not take them all. */
-static fs_status find_range(fs_context *ctx, const double *value, size_t n, double *low, double *high) {
-  fs_status status = FS_OK;
-  double *sorted = NULL;
-  size_t n_finite = 0;
-  *low = 0, *high = 1;
-  FS_ALLOC(ctx, sorted, n);
-  for (size_t k = 0; k < n; k++)
-    if (isfinite(value[k])) sorted[n_finite++] = value[k];
-  if (n_finite == 0) goto done;
-  *low = select_value(sorted, n_finite, (n_finite - 1) / 50);
-  *high = select_value(sorted, n_finite, n_finite - 1 - (n_finite - 1) / 50);
-  /* a constant measure, but for rounding, is shown in the colour of the middle */
-  double least = 1e-9 * fmax(fabs(*low), fabs(*high)) + 1e-300;
-  if (*high - *low < least) {
-    double middle = 0.5 * (*low + *high), half = 1e-6 * fabs(middle) + 1e-300;
-    *low = middle - half, *high = middle + half;
-  }
-done:
-  fs_release(ctx, sorted);
-  return status;
-}
-
 static void write_vectors(fs_writer *w, const char *keyword, const fs_vec3 *vector, int32_t n, int digits) {
   fs_writer_printf(w, "%s { %d,\n", keyword, (int)n);
   for (int32_t k = 0; k < n; k++) {
@@ -114,7 +69,7 @@ fs_status fs_povray_write_mesh(fs_context *ctx, const fs_povray_model *model, co
   if (colour != NULL) {
     FS_ALLOC(ctx, value, t->n_vertices);
     FS_TRY(fs_measure_vertices(ctx, surface, colour, t, value));
-    FS_TRY(find_range(ctx, value, (size_t)t->n_vertices, &low, &high));
+    FS_TRY(fs_measure_range(ctx, value, (size_t)t->n_vertices, &low, &high));
   }
   fs_writer_start(w, ctx, output, "inc");
   fs_povray_write_head(w, model);

@@ -93,7 +93,8 @@ typedef struct fs_reader {
 FS_API extern const fs_reader *const fs_readers[]; /* ends with NULL */
 
 /* Parses a mesh in the format whose extension is given ("obj"); FS_ERR_UNSUPPORTED lists the known ones.
-   Memory stays within a small multiple of size whatever the bytes say. Messages name the line, or the byte offset. */
+   Memory stays within a small multiple of size whatever the bytes say, in compressed formats within that of 64 triangles
+   per byte. Messages name the line, or the byte offset. */
 FS_API fs_status fs_mesh_parse(fs_context *ctx, const char *extension, const char *bytes, size_t size, fs_mesh **mesh);
 
 /* The same, and what the file says besides; notes is overwritten, for fs_mesh_notes_clear. */

@@ -76,6 +76,7 @@ static fs_status walk(fs_context *ctx, const fs_mesh *mesh, const fs_vec3 *start
   fs_refinement *step[FS_MAX_REFINEMENTS];
   fs_space *space = NULL;
   fs_surface *surface = NULL;
+  fs_mesh *net = NULL; /* with the positions that fairing found: exporters of nets write it */
   fs_contact contact;
   fs_fair_report report;
   int32_t n_steps = 0;
@@ -92,14 +93,17 @@ static fs_status walk(fs_context *ctx, const fs_mesh *mesh, const fs_vec3 *start
   TRY(status);
   TRY(fs_surface_create(ctx, space, c, &surface));
   TRY(fs_surface_contact(ctx, surface, 3, &contact));
-  TRY(write_all(ctx, &(fs_model){.name = "star", .control = mesh, .surface = surface}));
-  TRY(write_all(ctx, &(fs_model){.name = "star", .control = mesh, .surface = surface, .colour = fs_measures[0]}));
+  TRY(fs_mesh_copy(ctx, mesh, &net));
+  memcpy(net->position, c, (size_t)net->n_vertices * sizeof *c);
+  TRY(write_all(ctx, &(fs_model){.name = "star", .control = net, .surface = surface}));
+  TRY(write_all(ctx, &(fs_model){.name = "star", .control = net, .surface = surface, .colour = fs_measures[0]}));
 done:
   if (status != FS_OK) {
     assert_int_equal(status, FS_ERR_MEMORY);
     assert_true(ctx->message[0] != '\0');
     assert_true(surface == NULL || space != NULL);
   }
+  fs_mesh_free(ctx, net);
   fs_surface_free(ctx, surface);
   fs_space_free(ctx, space);
   fs_context_clear(ctx);

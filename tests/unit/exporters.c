@@ -186,6 +186,26 @@ static fs_vec3 minus(fs_vec3 a, fs_vec3 b) { return (fs_vec3){a.x - b.x, a.y - b
 
 static double dot(fs_vec3 a, fs_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
+static int compare_sides(const void *a, const void *b) { return memcmp(a, b, 24); }
+
+/* Every side of a facet, two points of three floats, is there the other way round too, bit by bit. */
+static void check_stitched(const char *facets, uint32_t n) {
+  char(*side)[24] = malloc(3 * (size_t)n * sizeof *side);
+  for (uint32_t i = 0; i < 3 * n; i++) {
+    const char *points = facets + 50 * (size_t)(i / 3) + 12;
+    memcpy(side[i], points + 12 * (i % 3), 12);
+    memcpy(side[i] + 12, points + 12 * ((i + 1) % 3), 12);
+  }
+  qsort(side, 3 * (size_t)n, sizeof *side, compare_sides);
+  for (uint32_t i = 0; i < 3 * n; i++) {
+    char back[24];
+    memcpy(back, side[i] + 12, 12);
+    memcpy(back + 12, side[i], 12);
+    assert_non_null(bsearch(back, side, 3 * (size_t)n, sizeof *side, compare_sides));
+  }
+  free(side);
+}
+
 /* A round torus of radii R = 1.2 and about r = 0.45 has the volume 2 pi^2 R r^2 = 4.80; its spline with few segments
    lies inside. Facets agree with their normals; sums of area times normal vanish on a closed surface. */
 static void test_stl_of_a_closed_surface(void **state) {
@@ -209,6 +229,7 @@ static void test_stl_of_a_closed_surface(void **state) {
     sum = minus(sum, area);
   }
   assert_true(sqrt(dot(sum, sum)) < 1e-5);
+  check_stitched(file.bytes + 84, n);
   assert_true(volume > 2.5 && volume < 4.8);
   free(file.bytes);
   file = export_surface(surface, "stl", (const double[]){1, 1});
@@ -251,6 +272,7 @@ static void test_outputs_that_fail(void **state) {
 
 static void test_every_allocation_may_fail(void **state) {
   fs_surface *surface = sample_torus(3, 3, every_fifth, 0);
+  fs_mesh *mesh = test_torus(6, 5, 2, 0.7);
   (void)state;
   for (int32_t i = 0; fs_exporters[i] != NULL; i++)
     for (int64_t n = 1;; n++) {
@@ -258,13 +280,15 @@ static void test_every_allocation_may_fail(void **state) {
       fs_context ctx = test_memory_context(&memory);
       memory_file file = {0};
       fs_output output = memory_output(&file);
-      fs_model model = {.name = "m", .surface = surface};
+      bool is_net = fs_exporters[i]->what == FS_EXPORT_NET;
+      fs_model model = {.name = "m", .control = is_net ? mesh : NULL, .surface = is_net ? NULL : surface};
       fs_status status = fs_export(&ctx, &model, fs_exporters[i], NULL, &output);
       assert_int_equal(memory.n_live, 0);
       free(file.bytes);
       if (status == FS_OK) break;
       assert_int_equal(status, FS_ERR_MEMORY);
     }
+  fs_mesh_free(&(fs_context){0}, mesh);
   sample_free(surface);
 }
 

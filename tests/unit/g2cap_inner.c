@@ -117,22 +117,25 @@ static void energies(const double *rows, int n, const double *points, double *fo
 
 /* ---- tests ---- */
 
-/* What is known of a valence, and all energies in one sector: columns as an element of the space has them, vertices (as the
-   sector sees them), smooth, local. */
+/* What is known of a valence, and energies in one sector of functions in columns: those of the matrix for some random nets,
+   then smooth, then local ones. */
+enum { N_NETS = 6 };
 typedef struct sample {
   int k, n_vertices, n_smooth, n; /* n: columns */
   const fs_g2cap *cap;
   const fs_g2cap_inner *inner;
-  double *rows, *points, *form;
+  double net[(6 * FS_G2CAP_MAX_VALENCE + 1) * N_NETS], *rows, *points, *form;
 } sample;
 
 static void sample_create(fs_context *ctx, int k, sample *s) {
+  uint64_t random = (uint64_t)k;
   *s = (sample){.k = k};
   assert_int_equal(fs_g2cap_get(ctx, k, &s->cap), FS_OK);
   assert_int_equal(fs_g2cap_get_inner(ctx, k, &s->inner), FS_OK);
   s->n_vertices = s->cap->n_vertices;
   s->n_smooth = s->inner->n_smooth;
-  s->n = s->n_vertices + s->n_smooth + FS_G2CAP_LOCAL;
+  for (int i = 0; i < s->n_vertices * N_NETS; i++) s->net[i] = test_random_real(&random, -1, 1);
+  s->n = N_NETS + s->n_smooth + FS_G2CAP_LOCAL;
   s->rows = calloc(NODES * NODES * 200, sizeof *s->rows);
   all_gradients(s->cap->chart, s->rows);
   s->points = calloc((size_t)(100 * s->n), sizeof *s->points);
@@ -146,10 +149,12 @@ static void sample_free(sample *s) {
 }
 
 static void set_sector(sample *s, int sector) {
-  int n = s->n_vertices, m = s->n_smooth;
+  int n = N_NETS, m = s->n_smooth;
+  double filled[100 * N_NETS];
+  fill_sector(s->k, s->cap->matrix, sector, N_NETS, s->net, filled);
   for (int p = 0; p < 100; p++) {
     double *row = s->points + p * s->n;
-    memcpy(row, s->cap->matrix + p * n, (size_t)n * sizeof *row);
+    memcpy(row, filled + p * n, (size_t)n * sizeof *row);
     memcpy(row + n, s->inner->smooth + (100 * sector + p) * m, (size_t)m * sizeof *row);
     memcpy(row + n + m, s->inner->local + FS_G2CAP_LOCAL * p, FS_G2CAP_LOCAL * sizeof *row);
   }
@@ -161,7 +166,7 @@ static void test_orthonormal(void **state) {
   for (int number = 0; number < N_VALENCES; number++) {
     sample s;
     sample_create(&ctx, VALENCES[number], &s);
-    int k = s.k, n = s.n_vertices, m = s.n_smooth;
+    int k = s.k, n = N_NETS, m = s.n_smooth;
     double *smooth = calloc((size_t)(m * m), sizeof *smooth), *mixed = calloc((size_t)(n * m), sizeof *mixed), size = 0;
     assert_int_equal(m, k == 3 ? 16 : k == 5 ? 21 : k == 6 ? 25 : 3 * k + 6);
     for (int sector = 0; sector < k; sector++) {
@@ -171,8 +176,7 @@ static void test_orthonormal(void **state) {
       for (int i = 0; i < m; i++)
         for (int j = 0; j < m; j++) smooth[i * m + j] += s.form[(n + i) * s.n + n + j];
       for (int i = 0; i < n; i++)
-        for (int j = 0; j < m; j++)
-          mixed[(i == 0 ? 0 : 1 + (i - 1 + 6 * sector) % (6 * k)) * m + j] += s.form[i * s.n + n + j];
+        for (int j = 0; j < m; j++) mixed[i * m + j] += s.form[i * s.n + n + j];
       for (int j = 0; j < FS_G2CAP_LOCAL; j++) {
         const double *row = s.form + (n + m + j) * s.n;
         for (int i = 0; i < n; i++) near(row[i], 0, 1e-11 * size);
@@ -215,7 +219,7 @@ static void test_energy(void **state) {
       fill_sector(s.k, s.cap->matrix, sector, 1, x, points);
       set_sector(&s, sector);
       for (int p = 0; p < 100; p++) {
-        const double *row = s.points + p * s.n + s.n_vertices;
+        const double *row = s.points + p * s.n + N_NETS;
         for (int i = 0; i < s.n_smooth; i++) points[p] += row[i] * free_part[i];
         for (int i = 0; i < 16; i++) points[p] += row[s.n_smooth + i] * free_part[s.n_smooth + 16 * sector + i];
       }
@@ -238,8 +242,8 @@ static void test_rim(void **state) {
     sample_create(&ctx, VALENCES[number], &s);
     for (int sector = 0; sector < s.k; sector++) {
       set_sector(&s, sector);
-      for (int column = s.n_vertices; column < s.n; column++) {
-        bool is_local = column >= s.n_vertices + s.n_smooth;
+      for (int column = N_NETS; column < s.n; column++) {
+        bool is_local = column >= N_NETS + s.n_smooth;
         double points[300] = {0}, largest = 0;
         for (int p = 0; p < 100; p++) {
           points[3 * p] = s.points[p * s.n + column];

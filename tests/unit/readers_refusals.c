@@ -13,6 +13,12 @@ struct refusal {
   fs_status status; /* 0: FS_ERR_FORMAT */
 };
 
+#ifdef FS_HAVE_DRACO
+#define DRC " .drc"
+#else
+#define DRC ""
+#endif
+
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 #define PLY_START "ply\nformat ascii 1.0\n"
 #define PLY_XYZ "property float x\nproperty float y\nproperty float z\n"
@@ -23,8 +29,8 @@ static const struct refusal refusals[] = {
     {"obj", "", "the file is empty", 0},
     {"off", "", "the file is empty", 0},
     {"ply", "", "the file is empty", 0},
-    {"stl", "solid", "no reader for '.stl'; there are readers for .obj .off .ply", FS_ERR_UNSUPPORTED},
-    {"", "", "no reader for '.'; there are readers for .obj .off .ply", FS_ERR_UNSUPPORTED},
+    {"stl", "solid", "no reader for '.stl'; there are readers for .obj .off .ply" DRC, FS_ERR_UNSUPPORTED},
+    {"", "", "no reader for '.'; there are readers for .obj .off .ply" DRC, FS_ERR_UNSUPPORTED},
 
     {"obj", "\n", "the file has no vertices (lines that start with v)", 0},
     {"obj", "v 0 0 0\n", "the file has no faces (lines that start with f)", 0},

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Single role: reads the control net that the exporter wrote into the page. The element's text is base64 of, all of it
+// little-endian: float64 position[vertices][3], float64 offset[offsets][3], int32 faceStart[faces + 1], int32 corner[corners].
+
+export function decodeBase64(text) {
+  const binary = atob(text.trim());
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+export function readNet(element) {
+  const count = (name) => Number(element.dataset[name]);
+  const net = {
+    nVertices: count('vertices'), nFaces: count('faces'), nCorners: count('corners'), nOffsets: count('offsets'),
+    caps: count('caps'), bytes: decodeBase64(element.textContent),
+  };
+  net.offsetAt = 24 * net.nVertices;
+  net.faceStartAt = net.offsetAt + 24 * net.nOffsets;
+  net.cornerAt = net.faceStartAt + 4 * (net.nFaces + 1);
+  if (net.bytes.length !== net.cornerAt + 4 * net.nCorners) throw new Error('The control net of this page is damaged.');
+  net.position = new Float64Array(net.bytes.buffer, 0, 3 * net.nVertices);
+  net.faceStart = new Int32Array(net.bytes.buffer, net.faceStartAt, net.nFaces + 1);
+  net.corner = new Int32Array(net.bytes.buffer, net.cornerAt, net.nCorners);
+  return net;
+}
+
+/* Pairs of vertices, every edge once: [2 edges]. */
+export function netEdges(net) {
+  const seen = new Set();
+  const pairs = [];
+  for (let f = 0; f < net.nFaces; f++) {
+    const start = net.faceStart[f], end = net.faceStart[f + 1];
+    for (let h = start; h < end; h++) {
+      const a = net.corner[h], b = net.corner[h + 1 < end ? h + 1 : start];
+      const key = Math.min(a, b) * net.nVertices + Math.max(a, b);
+      if (!seen.has(key)) pairs.push(a, b);
+      seen.add(key);
+    }
+  }
+  return new Uint32Array(pairs);
+}
