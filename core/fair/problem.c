@@ -20,17 +20,32 @@ done:
   return status;
 }
 
-static fs_status make_pattern(fs_context *ctx, fs_problem *p) {
+fs_status fs_problem_sets(fs_problem *p, int64_t **set_start, int32_t **set_member) {
   fs_status status = FS_OK;
   const fs_space *space = p->space;
   int64_t *start = NULL;
   int32_t *member = NULL;
-  FS_ALLOC(ctx, start, (size_t)space->n_elements + 1);
-  FS_ALLOC(ctx, member, space->n_element_dofs);
+  FS_ALLOC(p->ctx, start, (size_t)space->n_elements + 1);
+  FS_ALLOC(p->ctx, member, space->n_element_dofs);
   for (int32_t i = 0; i < space->n_elements; i++)
     start[i + 1] = start[i] + space->extraction[space->element[i].extraction].n_dofs;
   for (int64_t i = 0; i < space->n_element_dofs; i++) member[i] = p->unknown[space->dof[i]];
-  FS_TRY(fs_sparse_create(ctx, p->n_free, space->n_elements, start, member, &p->pattern));
+  *set_start = start;
+  *set_member = member;
+  start = NULL;
+  member = NULL;
+done:
+  fs_release(p->ctx, start);
+  fs_release(p->ctx, member);
+  return status;
+}
+
+static fs_status make_pattern(fs_context *ctx, fs_problem *p) {
+  fs_status status = FS_OK;
+  int64_t *start = NULL;
+  int32_t *member = NULL;
+  FS_TRY(fs_problem_sets(p, &start, &member));
+  FS_TRY(fs_sparse_create(ctx, p->n_free, p->space->n_elements, start, member, &p->pattern));
 done:
   fs_release(ctx, start);
   fs_release(ctx, member);

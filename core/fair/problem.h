@@ -50,6 +50,9 @@ void fs_problem_free(fs_context *ctx, fs_problem *problem); /* NULL is allowed *
 fs_status fs_problem_evaluate(fs_problem *problem, fs_order order, double *integral, double *integral_caps, double *g,
                               fs_sparse *hessian);
 
+/* The free dofs of each element as sets for fs_sparse_create, FS_NONE in the place of others; the caller releases both. */
+fs_status fs_problem_sets(fs_problem *problem, int64_t **set_start, int32_t **member);
+
 /* problem->c from the unknowns x[3 n_free], and back. */
 void fs_problem_set(fs_problem *problem, const double *x);
 void fs_problem_get(const fs_problem *problem, double *x);

@@ -113,8 +113,50 @@ done:
 }
 
 void fs_setup_free(fs_context *ctx, fs_setup *s) {
+  fs_reduction_free(ctx, s->reduction);
+  fs_sparse_free(ctx, s->reduced);
+  fs_release(ctx, s->x);
+  fs_release(ctx, s->g);
   fs_problem_free(ctx, s->problem);
   s->problem = NULL;
+  s->reduction = NULL;
+  s->reduced = NULL;
+  s->x = s->g = NULL;
+}
+
+/* ---- fewer unknowns ---------------------------------------------------------------------------------------------- */
+
+fs_status fs_setup_reduce(fs_setup *s, fs_reduction *reduction) {
+  fs_status status = FS_OK;
+  fs_context *ctx = s->problem->ctx;
+  int64_t *set_start = NULL;
+  int32_t *member = NULL;
+  fs_reduction_free(ctx, s->reduction);
+  fs_sparse_free(ctx, s->reduced);
+  s->reduction = reduction;
+  s->reduced = NULL;
+  if (reduction == NULL) return FS_OK;
+  if (s->x == NULL) FS_ALLOC(ctx, s->x, 3 * (size_t)s->problem->n_free);
+  if (s->g == NULL) FS_ALLOC(ctx, s->g, 3 * (size_t)s->problem->n_free);
+  FS_TRY(fs_problem_sets(s->problem, &set_start, &member));
+  FS_TRY(fs_reduction_pattern(ctx, reduction, s->problem->space->n_elements, set_start, member, &s->reduced));
+done:
+  fs_release(ctx, set_start);
+  fs_release(ctx, member);
+  return status;
+}
+
+int32_t fs_setup_n(const fs_setup *s) { return s->reduction != NULL ? s->reduction->n_columns : s->problem->n_free; }
+
+const fs_sparse *fs_setup_pattern(const fs_setup *s) { return s->reduction != NULL ? s->reduced : s->problem->pattern; }
+
+void fs_setup_place(fs_setup *s, const double *y) {
+  if (s->reduction == NULL) {
+    fs_problem_set(s->problem, y);
+    return;
+  }
+  fs_reduction_apply(s->reduction, y, s->x);
+  fs_problem_set(s->problem, s->x);
 }
 
 double fs_setup_c(const fs_setup *s) { return s->term_Q < s->functional->n_terms ? s->problem->weight[s->term_Q] : 0; }
@@ -164,9 +206,12 @@ done:
 static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, double *g, fs_sparse *hessian) {
   fs_status status = FS_OK;
   double integral[FS_MAX_TERMS + 2];
-  fs_problem_set(s->problem, x);
+  bool is_reduced = s->reduction != NULL;
+  fs_setup_place(s, x);
   FS_TRY(fs_progress(s->problem->ctx, "fairing", 0));
-  FS_TRY(evaluate(s, order, integral, NULL, f, g, hessian));
+  FS_TRY(evaluate(s, order, integral, NULL, f, is_reduced ? s->g : g, is_reduced ? s->problem->pattern : hessian));
+  if (is_reduced && order >= FS_GRADIENT) fs_reduction_gather(s->reduction, s->g, g);
+  if (is_reduced && order >= FS_HESSIAN) fs_reduction_hessian(s->reduction, s->problem->pattern, hessian);
 done:
   return status;
 }
@@ -188,15 +233,16 @@ static fs_status normal(void *self, const double *x, double *v) {
   memcpy(kept, p->weight, sizeof kept);
   memset(p->weight, 0, sizeof p->weight);
   p->weight[s->term_A] = 1;
-  fs_problem_set(p, x);
-  status = fs_problem_evaluate(p, FS_GRADIENT, NULL, NULL, v, NULL);
+  fs_setup_place(s, x);
+  status = fs_problem_evaluate(p, FS_GRADIENT, NULL, NULL, s->reduction != NULL ? s->g : v, NULL);
+  if (s->reduction != NULL) fs_reduction_gather(s->reduction, s->g, v);
   memcpy(p->weight, kept, sizeof kept);
   return status;
 }
 
 fs_objective fs_setup_objective(fs_setup *s, fs_solver *solver) {
-  return (fs_objective){.n = s->problem->n_free,
-                        .pattern = s->problem->pattern,
+  return (fs_objective){.n = fs_setup_n(s),
+                        .pattern = fs_setup_pattern(s),
                         .solver = solver,
                         .self = s,
                         .value = value,

@@ -4,6 +4,7 @@
 #define FS_FAIR_SETUP_H
 
 #include "fair/problem.h"
+#include "fair/reduce.h"
 #include "optimise/minimise.h"
 
 enum { FS_MAX_FUNCTIONAL_PARAMS = 8 };
@@ -14,12 +15,26 @@ typedef struct fs_setup {
   fs_scale scale;
   fs_problem *problem;            /* its terms: those of the functional, then what is only measured */
   int32_t term_S, term_Q, term_A; /* numbers of these terms; term_A: FS_NONE where the functional has no area */
+  fs_reduction *reduction;        /* of the free dofs to fewer unknowns; NULL: the unknowns are the free dofs */
+  fs_sparse *reduced;             /* pattern of their Hessian */
+  double *x, *g;                  /* [3 n_free] with a reduction: the free dofs and their gradient */
 } fs_setup;
 
 /* Chooses the functional (also by whether anything is fixed), checks options and parameters, makes the problem at c. */
 fs_status fs_setup_create(fs_context *ctx, const fs_space *space, const fs_fair_options *options,
                           const fs_functional *functional, const fs_vec3 *c, fs_setup *setup);
 void fs_setup_free(fs_context *ctx, fs_setup *setup);
+
+/* From now on the unknowns are those of the reduction, whose rows are the free dofs of the problem; the setup owns it, also
+   on failure. NULL: the free dofs again. */
+fs_status fs_setup_reduce(fs_setup *setup, fs_reduction *reduction);
+
+/* Groups of three unknowns, and the pattern of their Hessian. */
+int32_t fs_setup_n(const fs_setup *setup);
+const fs_sparse *fs_setup_pattern(const fs_setup *setup);
+
+/* problem->c at the unknowns y[3 fs_setup_n]. */
+void fs_setup_place(fs_setup *setup, const double *y);
 
 /* Energies at problem->c; g[3 n_free] receives the gradient. */
 fs_status fs_setup_measure(fs_setup *setup, double *g, fs_energy *energy);
