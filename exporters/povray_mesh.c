@@ -43,7 +43,7 @@ static void write_faces(fs_writer *w, const fs_triangles *t) {
 
 static bool is_closed(const fs_surface *surface) {
   for (int32_t p = 0; p < surface->n_patches; p++)
-    for (int s = 0; s < 4; s++)
+    for (int s = 0; s < surface->patch[p].n_sides; s++)
       if (surface->patch[p].neighbour[s] == FS_NONE) return false;
   return true;
 }

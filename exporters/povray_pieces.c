@@ -9,7 +9,9 @@
 #include "math/vec3.h"
 #include "surface/surface.h"
 
-bool fs_povray_is_whole(const fs_patch *patch) { return patch->degree_u <= 3 && patch->degree_v <= 3; }
+bool fs_povray_is_whole(const fs_patch *patch) {
+  return fs_patch_is_tensor_bezier(patch) && patch->degree_u <= 3 && patch->degree_v <= 3;
+}
 
 static int32_t n_parts(const fs_povray_pieces *pieces, const fs_surface *surface, int32_t p) {
   return fs_povray_is_whole(&surface->patch[p]) ? 1 : (int32_t)1 << pieces->m;
@@ -150,9 +152,9 @@ static void measure_angles(const fs_surface *surface, fs_povray_pieces *pieces, 
     if (other == FS_NONE) continue;
     for (int32_t k = 0; k <= n; k++) {
       double u, v;
-      fs_side_parameters(s, (double)k / n, &u, &v);
+      fs_side_parameters(4, s, (double)k / n, &u, &v);
       fs_vec3 here = evaluate_pieces(surface, pieces, p, u, v, &position);
-      fs_side_parameters(other % 4, 1 - (double)k / n, &u, &v);
+      fs_side_parameters(4, other % 4, 1 - (double)k / n, &u, &v);
       fs_vec3 there = evaluate_pieces(surface, pieces, other / 4, u, v, &position);
       pieces->angle = fmax(pieces->angle, fs_vec3_angle(here, there));
     }

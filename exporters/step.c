@@ -35,7 +35,7 @@ static fs_status check(fs_context *ctx, const fs_surface *surface, survey *found
   for (int32_t p = 0; p < surface->n_patches; p++) {
     const fs_patch *patch = &surface->patch[p];
     const double *b = surface->data + patch->data_start;
-    if (patch->kind != FS_PATCH_TENSOR_BEZIER || patch->degree_u < 1 || patch->degree_v < 1 ||
+    if (!fs_patch_is_tensor_bezier(patch) || patch->degree_u < 1 || patch->degree_v < 1 ||
         patch->degree_u > FS_MAX_DEGREE || patch->degree_v > FS_MAX_DEGREE)
       return fs_fail(ctx, FS_ERR_UNSUPPORTED, "patch %d is no Bezier patch of degree 1 to %d", (int)p, FS_MAX_DEGREE);
     for (int32_t k = 0; k < (patch->degree_u + 1) * (patch->degree_v + 1); k++) {

@@ -32,7 +32,7 @@ static bool is_smooth(const fs_surface *surface, int32_t a, int32_t b, double to
 }
 
 static bool is_bicubic(const fs_patch *patch) {
-  return patch->kind == FS_PATCH_TENSOR_BEZIER && patch->degree_u == 3 && patch->degree_v == 3;
+  return fs_patch_is_tensor_bezier(patch) && patch->degree_u == 3 && patch->degree_v == 3;
 }
 
 /* smooth[4 n_patches] of sides. */

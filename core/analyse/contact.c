@@ -27,9 +27,9 @@ static void compare(const fs_surface *surface, int32_t p, int32_t s, double t, f
   fs_vec3 x[FS_JET_SIZE], y[FS_JET_SIZE];
   fs_geometry g, h;
   double u, v, W[3][3], V[3][3];
-  fs_side_parameters(s, t, &u, &v);
+  fs_side_parameters(patch->n_sides, s, t, &u, &v);
   fs_surface_evaluate(surface, p, u, v, x);
-  fs_side_parameters(patch->neighbour_side[s], 1 - t, &u, &v);
+  fs_side_parameters(surface->patch[patch->neighbour[s]].n_sides, patch->neighbour_side[s], 1 - t, &u, &v);
   fs_surface_evaluate(surface, patch->neighbour[s], u, v, y);
   keep(contact, 0, &contact->position, fs_vec3_distance(x[FS_D], y[FS_D]), p, s);
   if (!fs_geometry_compute(x, &g) || !fs_geometry_compute(y, &h)) return;
@@ -45,7 +45,7 @@ fs_status fs_surface_contact(fs_context *ctx, const fs_surface *surface, int32_t
   if (n_samples < 1)
     return fs_fail(ctx, FS_ERR_ARGUMENT, "contact needs 1 sample per side or more, not %d", (int)n_samples);
   for (int32_t p = 0; p < surface->n_patches; p++)
-    for (int32_t s = 0; s < 4; s++) {
+    for (int32_t s = 0; s < surface->patch[p].n_sides; s++) {
       const fs_patch *patch = &surface->patch[p];
       if (patch->neighbour[s] == FS_NONE ||
           4 * (int64_t)patch->neighbour[s] + patch->neighbour_side[s] < 4 * (int64_t)p + s)

@@ -74,6 +74,8 @@ fs_status fs_surface_hermite_depth(fs_context *ctx, const fs_surface *surface, i
   fs_vec3 *bezier = NULL;
   int32_t depth = 0;
   double largest = 0;
+  if (surface->patch[patch].n_sides != 4)
+    return fs_fail(ctx, FS_ERR_ARGUMENT, "patch %d has 3 sides: bicubic pieces need 4", (int)patch);
   if (max_m < 0 || max_m > 10)
     return fs_fail(ctx, FS_ERR_ARGUMENT, "a patch can be split 0 to 10 times, not %d", (int)max_m);
   for (;; depth++) {

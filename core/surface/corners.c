@@ -22,15 +22,17 @@ fs_status fs_surface_corners(fs_context *ctx, const fs_surface *surface, int32_t
   FS_ALLOC(ctx, parent, 4 * (size_t)surface->n_patches);
   for (int32_t i = 0; i < 4 * surface->n_patches; i++) parent[i] = i;
   for (int32_t p = 0; p < surface->n_patches; p++)
-    for (int32_t s = 0; s < 4; s++) {
+    for (int32_t s = 0; s < surface->patch[p].n_sides; s++) {
       int32_t other = fs_side_across(surface, p, s);
       if (other == FS_NONE) continue;
       /* our corner s is where the side that meets ours ends, our corner s + 1 where it starts */
       int32_t q = other / 4, r = other % 4;
-      unite(parent, 4 * p + s, 4 * q + (r + 1) % 4);
-      unite(parent, 4 * p + (s + 1) % 4, 4 * q + r);
+      unite(parent, 4 * p + s, 4 * q + (r + 1) % surface->patch[q].n_sides);
+      unite(parent, 4 * p + (s + 1) % surface->patch[p].n_sides, 4 * q + r);
     }
   for (int32_t i = 0; i < 4 * surface->n_patches; i++) {
+    corner[i] = FS_NONE;
+    if (i % 4 >= surface->patch[i / 4].n_sides) continue;
     int32_t root = find(parent, i);
     corner[i] = root == i ? n++ : corner[root];
   }

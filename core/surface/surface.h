@@ -12,8 +12,28 @@ static inline int32_t fs_side_across(const fs_surface *surface, int32_t p, int32
   return patch->neighbour[s] == FS_NONE ? FS_NONE : 4 * patch->neighbour[s] + patch->neighbour_side[s];
 }
 
+/* A patch that lies in the data as its control points: a tensor Bezier patch over all of its domain. */
+static inline bool fs_patch_is_tensor_bezier(const fs_patch *patch) {
+  return patch->kind == FS_PATCH_TENSOR_BEZIER && patch->part == 0;
+}
+
 /* Numbers the corners of the patches, corners that shared sides join counted once: corner[4 n_patches] at 4 patch +
-   corner. Numbers appear in ascending order, each first at its lowest patch. Needs 4 n_patches to fit int32_t. */
+   corner; FS_NONE at the fourth of a patch of three. Numbers appear in ascending order, each first at its lowest patch.
+   Needs 4 n_patches to fit int32_t. */
 fs_status fs_surface_corners(fs_context *ctx, const fs_surface *surface, int32_t *corner, int32_t *n_corners);
+
+/* uv[2] of corner c (counted on beyond the last) and of the middle of the domain of a patch of 3 or 4 sides. */
+void fs_domain_corner(int32_t n_sides, int32_t c, double *uv);
+void fs_domain_centre(int32_t n_sides, double *uv);
+
+/* The functions of the table of kinds. */
+size_t fs_tensor_bezier_numbers(const fs_patch *patch);
+void fs_tensor_bezier_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x);
+size_t fs_bezier_triangle_numbers(const fs_patch *patch);
+void fs_bezier_triangle_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x);
+size_t fs_gregory_quad_numbers(const fs_patch *patch);
+void fs_gregory_quad_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x);
+size_t fs_gregory_triangle_numbers(const fs_patch *patch);
+void fs_gregory_triangle_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x);
 
 #endif

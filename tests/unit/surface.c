@@ -99,7 +99,7 @@ static void test_jets_are_exact_at_ends(void **state) {
   for (int k = 0; k <= 4; k++)
     for (int side = 0; side < 4; side++) {
       double u, v, t[2] = {0, 0};
-      fs_side_parameters(side, k / 4.0, &u, &v);
+      fs_side_parameters(4, side, k / 4.0, &u, &v);
       t[side % 2] = side < 2 ? k / 4.0 : 1 - k / 4.0;
       t[1 - side % 2] = side == 1 || side == 2;
       assert_true(u == t[0] && v == t[1]);
