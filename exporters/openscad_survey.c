@@ -35,7 +35,9 @@ fs_status fs_survey_surface(fs_context *ctx, const fs_surface *surface, fs_surve
   for (int32_t p = 0; p < surface->n_patches; p++) {
     double uu = 0, uv = 0, vv = 0;
     for (int32_t k = 0; k < (N_CELLS + 1) * (N_CELLS + 1); k++) {
-      fs_surface_evaluate(surface, p, k % (N_CELLS + 1) / (double)N_CELLS, k / (N_CELLS + 1) / (double)N_CELLS, x);
+      double u = k % (N_CELLS + 1) / (double)N_CELLS, v = k / (N_CELLS + 1) / (double)N_CELLS;
+      if (!fs_domain_holds(surface->patch[p].n_sides, u, v)) continue;
+      fs_surface_evaluate(surface, p, u, v, x);
       if (!fs_vec3_is_finite(x[FS_D]))
         return fs_fail(ctx, FS_ERR_NUMERIC, "patch %d has points that are not finite", (int)p);
       s.min = fs_vec3_min(s.min, x[FS_D]);

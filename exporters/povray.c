@@ -16,8 +16,7 @@ static const fs_param params[] = {
     [STEPS] = {"steps",
                "each patch is drawn as 2^steps x 2^steps cells; 0: 4 up to 1500 patches, then fewer, more for caps", 0,
                0, 8, NULL},
-    [TOLERANCE] = {"tolerance",
-                   "largest distance of bicubic pieces from patches of higher degree, as part of the box diagonal",
+    [TOLERANCE] = {"tolerance", "largest distance of bicubic pieces from other patches, as part of the box diagonal",
                    1e-4, 1e-9, 1, NULL},
     [N_PARAMS] = {0},
 };
@@ -57,7 +56,12 @@ static fs_status write_mesh(fs_context *ctx, fs_povray_model *model, const fs_me
 static fs_status write_bicubic(fs_context *ctx, fs_povray_model *model, const fs_output *output) {
   fs_status status = FS_OK;
   fs_povray_pieces *pieces = NULL;
-  const fs_surface *surface = model->model->surface;
+  fs_surface *surface = NULL;
+  const fs_model *given = model->model;
+  fs_model quads = *model->model;
+  FS_TRY(fs_surface_to_quads(ctx, quads.surface, &surface));
+  quads.surface = surface;
+  model->model = &quads;
   FS_TRY(fs_povray_pieces_create(ctx, surface, model->tolerance, most_divisions(model->steps, surface->n_patches),
                                  &pieces));
   if (model->steps == 0) model->steps = automatic_steps(pieces->n_pieces);
@@ -67,6 +71,8 @@ static fs_status write_bicubic(fs_context *ctx, fs_povray_model *model, const fs
             model->tolerance);
   FS_TRY(fs_povray_write_bicubic(ctx, model, pieces, output));
 done:
+  model->model = given;
+  fs_surface_free(ctx, surface);
   fs_povray_pieces_free(ctx, pieces);
   return status;
 }

@@ -21,6 +21,7 @@ void fs_povray_include(fs_writer *writer, const char *stem);         /* #include
    the points of the latter are those of the halved curve. */
 typedef struct fs_povray_pieces {
   int32_t n_patches, n_whole, n_divided, m;
+  bool is_tensor; /* all divided ones are tensor Bezier patches: caps */
   size_t n_pieces;
   size_t *first;    /* [n_patches + 1] first piece of each patch; piece (a, b) of a divided one is number a + 2^m b */
   fs_vec3 *point;   /* [16 n_pieces] u fastest */

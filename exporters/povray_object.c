@@ -26,16 +26,18 @@ static void write_facts(fs_writer *w, const fs_povray_model *model, const fs_pov
     fs_writer_printf(w, "\n");
     return;
   }
+  fs_writer_printf(w, pieces->is_tensor ? "; %d of higher degree (caps),\n" : "; %d of other kinds,\n",
+                   (int)pieces->n_divided);
   fs_writer_printf(
       w,
-      "; %d of higher degree (caps),\n"
       "//   each approximated by 4^m bicubic pieces, m = %d: position, derivatives and twist at their corners\n"
       "//   tolerance ",
-      (int)pieces->n_divided, (int)pieces->m);
+      (int)pieces->m);
   fs_povray_number(w, model->tolerance, 4);
   fs_writer_printf(w, ", largest deviation ");
   fs_povray_number(w, pieces->deviation, 4);
-  fs_writer_printf(w, "\n//   largest angle between normals across the sides of caps, spokes included: ");
+  fs_writer_printf(w, "\n//   largest angle between normals across %s: ",
+                   pieces->is_tensor ? "the sides of caps, spokes included" : "their sides");
   fs_povray_number(w, pieces->angle * (180 / 3.14159265358979323846), 4);
   fs_writer_printf(w, " degrees\n");
 }

@@ -47,7 +47,7 @@ static fs_status fill(fs_context *ctx, const fs_surface *surface, fs_povray_piec
   for (int32_t p = 0; p < surface->n_patches; p++) {
     const fs_patch *patch = &surface->patch[p];
     fs_vec3 *bezier = pieces->point + 16 * pieces->first[p];
-    if (patch->degree_u == 3 && patch->degree_v == 3)
+    if (fs_patch_is_tensor_bezier(patch) && patch->degree_u == 3 && patch->degree_v == 3)
       copy_patch(surface, patch, bezier);
     else
       fs_surface_hermite_bicubics(surface, p, fs_povray_is_whole(patch) ? 0 : pieces->m, bezier);
@@ -179,6 +179,7 @@ static fs_status plan(fs_context *ctx, const fs_surface *surface, double toleran
                       fs_povray_pieces *pieces) {
   fs_status status = FS_OK;
   pieces->n_patches = surface->n_patches;
+  pieces->is_tensor = true;
   FS_ALLOC(ctx, pieces->first, (size_t)surface->n_patches + 1);
   for (int32_t p = 0; p < surface->n_patches; p++) {
     int32_t m = 0;
@@ -188,6 +189,7 @@ static fs_status plan(fs_context *ctx, const fs_surface *surface, double toleran
       continue;
     }
     pieces->n_divided++;
+    pieces->is_tensor &= fs_patch_is_tensor_bezier(&surface->patch[p]);
     if (pieces->m == max_m) continue;
     FS_TRY(fs_surface_hermite_depth(ctx, surface, p, tolerance, max_m, &m, &deviation));
     if (m > pieces->m) pieces->m = m;

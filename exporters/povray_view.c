@@ -17,6 +17,7 @@ static fs_status visit_points(fs_context *ctx, fs_povray_model *model, void (*vi
   for (int32_t p = 0; p < surface->n_patches; p++)
     for (int j = 0; j <= N; j++)
       for (int i = 0; i <= N; i++) {
+        if (surface->patch[p].n_sides == 3 && i + j > N) break;
         fs_surface_evaluate(surface, p, (double)i / N, (double)j / N, x);
         if (!fs_vec3_is_finite(x[FS_D]))
           return fs_fail(ctx, FS_ERR_NUMERIC, "patch %d has points that are not finite", (int)p);

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* The STEP exporter, AP214: every patch exactly as a B-spline surface, runs of bicubic patches as one, faces that share
+/* The STEP exporter, AP214: every Bezier patch exactly as a B-spline surface, others as bicubic pieces within a tolerance, runs of bicubic patches as one, faces that share
    vertices and edges; a solid for each closed component, an open shell for each other one. */
 #include "step.h"
 #include "base/base.h"
 #include "math/vec3.h"
 #include "surface/surface.h"
 
-enum { MERGE, UNIT, N_PARAMS };
+enum { MERGE, UNIT, TOLERANCE, N_PARAMS };
 
 static const fs_param params[] = {
     [MERGE] = {"step-merge", "whether bicubic patches that join smoothly become larger faces", 1, 0, 1,
                (const char *const[]){"no", "yes", NULL}},
     [UNIT] = {"unit", "of the coordinates", FS_STEP_MM, FS_STEP_MM, FS_STEP_IN,
               (const char *const[]){"mm", "cm", "m", "in", NULL}},
+    [TOLERANCE] = {"tolerance", "largest distance of bicubic pieces from other patches, as part of the box diagonal",
+                   1e-4, 1e-9, 1, NULL},
     [N_PARAMS] = {0},
 };
 
@@ -74,15 +76,55 @@ static int64_t write_shells(fs_step_file *step, const fs_step_shells *shells, bo
   return n_items;
 }
 
+/* ---- patches that are no Bezier patches ---- */
+
+static bool is_exact(const fs_surface *surface) {
+  for (int32_t p = 0; p < surface->n_patches; p++)
+    if (!fs_patch_is_tensor_bezier(&surface->patch[p])) return false;
+  return true;
+}
+
+/* The diagonal of the box of the corners of the patches. */
+static double diagonal(const fs_surface *surface) {
+  fs_vec3 min = {INFINITY, INFINITY, INFINITY}, max = {-INFINITY, -INFINITY, -INFINITY}, x[FS_JET_SIZE];
+  for (int32_t p = 0; p < surface->n_patches; p++)
+    for (int32_t s = 0; s < surface->patch[p].n_sides; s++) {
+      double u, v;
+      fs_side_parameters(surface->patch[p].n_sides, s, 0, &u, &v);
+      fs_surface_evaluate(surface, p, u, v, x);
+      min = fs_vec3_min(min, x[FS_D]);
+      max = fs_vec3_max(max, x[FS_D]);
+    }
+  return fs_vec3_distance(min, max);
+}
+
+/* stand_in: bicubic patches in place of a surface that has others; NULL where it has none. */
+static fs_status make_stand_in(fs_context *ctx, const fs_surface *surface, double tolerance, fs_surface **stand_in) {
+  enum { MAX_M = 5 };
+  double length, deviation = 0;
+  fs_status status;
+  if (surface == NULL || is_exact(surface)) return FS_OK;
+  length = diagonal(surface);
+  if (!(length > 0) || !isfinite(length)) return fs_fail(ctx, FS_ERR_NUMERIC, "the corners of the patches span no box");
+  status = fs_surface_to_bicubics(ctx, surface, tolerance * length, MAX_M, stand_in, &deviation);
+  if (status == FS_OK)
+    fs_note(ctx, "the STEP file has bicubic patches within %.2g of the surface%s", deviation,
+            deviation > tolerance * length ? ", more than the tolerance" : "");
+  return status;
+}
+
 static fs_status write(fs_context *ctx, const fs_model *model, const double *param, const fs_output *output) {
   fs_status status = FS_OK;
   const fs_surface *surface = model->surface;
+  fs_surface *stand_in = NULL;
   fs_step_layout *layout = NULL;
   fs_step_shells *shells = NULL;
   int64_t *face_entity = NULL, *item = NULL, *scratch = NULL;
   survey found = {0};
   fs_step_file step = {0};
   fs_step_frame frame;
+  FS_TRY(make_stand_in(ctx, surface, param[TOLERANCE], &stand_in));
+  if (stand_in != NULL) surface = stand_in;
   FS_TRY(check(ctx, surface, &found));
   double tolerance = ROUNDING * found.largest;
   FS_TRY(fs_step_layout_create(ctx, surface, param[MERGE] != 0, tolerance, &layout));
@@ -103,6 +145,7 @@ done:
   fs_release(ctx, item);
   fs_step_shells_free(ctx, shells);
   fs_step_layout_free(ctx, layout);
+  fs_surface_free(ctx, stand_in);
   return status;
 }
 

@@ -39,7 +39,7 @@ static fs_status memory_open(void *user, const char *extension, fs_sink *sink) {
 static fs_status export_to(fs_context *ctx, const fs_surface *surface, bool is_merging, memory_file *file) {
   fs_output output = {memory_open, file};
   fs_model model = {.name = "part", .surface = surface};
-  const double param[] = {is_merging, FS_STEP_MM};
+  const double param[] = {is_merging, FS_STEP_MM, 1e-4};
   return fs_export(ctx, &model, fs_exporter_find("step"), param, &output);
 }
 
