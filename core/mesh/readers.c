@@ -28,6 +28,7 @@ void fs_mesh_notes_clear(fs_context *ctx, fs_mesh_notes *notes) {
   fs_release(ctx, notes->fixed);
   fs_release(ctx, notes->made_with);
   fs_release(ctx, notes->functional);
+  fs_cap_notes_free(ctx, notes->caps);
   *notes = (fs_mesh_notes){0};
 }
 

@@ -189,8 +189,8 @@ done:
 
 /* ---- the rim ----------------------------------------------------------------------------------------------------- */
 
-/* Fixes the further dofs of every element whose vertices are all fixed. All sectors of a cap see the same vertices. */
-static void fix_offsets(const fs_space *space, bool *fixed) {
+/* All sectors of a cap see the same vertices. */
+void fs_space_fix_caps(const fs_space *space, bool *fixed) {
   for (int32_t e = 0; e < space->n_elements; e++) {
     const fs_extraction *x = &space->extraction[space->element[e].extraction];
     const int32_t *dof = space->dof + space->element[e].dof_start;
@@ -215,7 +215,7 @@ fs_status fs_space_rim(fs_context *ctx, const fs_mesh *mesh, const fs_space *spa
       for (int32_t h = mesh->face_start[f]; is_near && h < mesh->face_start[f + 1]; h++) fixed[mesh->origin[h]] = true;
     }
   }
-  fix_offsets(space, fixed);
+  fs_space_fix_caps(space, fixed);
 done:
   fs_release(ctx, near_boundary);
   return status;

@@ -3,7 +3,7 @@
    docs/g2caps.md]. The sectors of a linear cap share one extraction: only the order of the vertices turns. With inner
    coefficients each sector has its own, E = [matrix of the cap | smooth | local], shared by all caps of that valence. */
 #include "space/space.h"
-#include "space/g2cap.h"
+#include "space/g2cap_parts.h"
 
 enum {
   MAX_NET = 6 * FS_MAX_CAP_VALENCE + 1,
@@ -100,10 +100,11 @@ done:
   return status;
 }
 
-static fs_status make_kind(fs_context *ctx, int32_t k, fs_space_builder *builder, cap_kind *kind) {
+/* is_kept_full: one of them has coefficients in its sectors to start with. */
+static fs_status make_kind(fs_context *ctx, int32_t k, bool is_kept_full, fs_space_builder *builder, cap_kind *kind) {
   fs_status status = FS_OK;
   const fs_space_options *options = fs_builder_options(builder);
-  bool is_full = options->caps == FS_CAPS_FULL && k <= options->max_full_valence;
+  bool is_full = options->caps == FS_CAPS_FULL && (k <= options->max_full_valence || is_kept_full);
   if (options->caps == FS_CAPS_LINEAR)
     FS_TRY(make_linear(ctx, k, builder, kind));
   else
@@ -116,7 +117,8 @@ done:
 static fs_status build_cap(const fs_mesh *mesh, int32_t vertex, const cap_kind *kind, fs_space_builder *builder) {
   fs_status status = FS_OK;
   int32_t net[MAX_NET], dofs[MAX_DOFS], spoke[FS_MAX_CAP_VALENCE], k = 0, first_dof;
-  int32_t first = mesh->outgoing[vertex], h = first;
+  const fs_cap_note *kept = fs_builder_kept(builder, vertex);
+  int32_t first = kept != NULL ? fs_find_halfedge(mesh, vertex, kept->spoke) : mesh->outgoing[vertex], h = first;
   do {
     spoke[k] = h;
     collect_sector(mesh, h, net + 6 * k);
@@ -136,15 +138,32 @@ done:
   return status;
 }
 
+static bool is_owned(const fs_mesh *mesh, int32_t vertex, int32_t rule, const int32_t *owner) {
+  return fs_is_special(mesh, vertex) && owner[mesh->face[mesh->outgoing[vertex]]] == rule;
+}
+
+/* is_full[k]: a cap of that valence has coefficients in its sectors to start with. */
+static void find_kept_full(const fs_mesh *mesh, int32_t rule, const int32_t *owner, const fs_space_builder *builder,
+                           bool *is_full) {
+  if (fs_builder_options(builder)->kept == NULL) return;
+  for (int32_t v = 0; v < mesh->n_vertices; v++) {
+    const fs_cap_note *kept = fs_builder_kept(builder, v);
+    if (kept == NULL || !is_owned(mesh, v, rule, owner)) continue;
+    is_full[kept->valence] |= kept->n > fs_g2cap_n_functions(kept->valence);
+  }
+}
+
 static fs_status build(fs_context *ctx, const fs_mesh *mesh, int32_t rule, const int32_t *owner,
                        fs_space_builder *builder) {
   fs_status status = FS_OK;
   cap_kind kind[FS_MAX_CAP_VALENCE + 1] = {0};
+  bool is_kept_full[FS_MAX_CAP_VALENCE + 1] = {false};
+  find_kept_full(mesh, rule, owner, builder, is_kept_full);
   for (int32_t v = 0; v < mesh->n_vertices; v++) {
     int32_t k;
-    if (!fs_is_special(mesh, v) || owner[mesh->face[mesh->outgoing[v]]] != rule) continue;
+    if (!is_owned(mesh, v, rule, owner)) continue;
     k = fs_mesh_valence(mesh, v);
-    if (!kind[k].is_made) FS_TRY(make_kind(ctx, k, builder, &kind[k]));
+    if (!kind[k].is_made) FS_TRY(make_kind(ctx, k, is_kept_full[k], builder, &kind[k]));
     FS_TRY(build_cap(mesh, v, &kind[k], builder));
   }
 done:

@@ -12,6 +12,7 @@ struct fs_space_builder {
   const fs_mesh *mesh;
   fs_space *space;
   fs_space_options options;
+  int32_t *note_of; /* [n_vertices] 1 + number of the cap among those that are kept; NULL: none are */
   int64_t dof_capacity;
   int32_t extraction_capacity, cap_capacity;
 };
@@ -102,6 +103,11 @@ done:
 
 const fs_space_options *fs_builder_options(const fs_space_builder *builder) { return &builder->options; }
 
+const fs_cap_note *fs_builder_kept(const fs_space_builder *builder, int32_t vertex) {
+  int32_t number = builder->note_of != NULL ? builder->note_of[vertex] : 0;
+  return number > 0 ? &builder->options.kept->cap[number - 1] : NULL;
+}
+
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
 /* The half-edge along side s of an element on a quadrilateral. */
@@ -167,6 +173,7 @@ fs_status fs_space_create_with(fs_context *ctx, const fs_mesh *mesh, const fs_sp
   int32_t *owner = NULL, n_covered = 0;
   fs_space_builder builder = {.ctx = ctx, .mesh = mesh};
   FS_TRY(set_options(ctx, options, &builder.options));
+  if (builder.options.kept != NULL) FS_TRY(fs_space_find_caps(ctx, mesh, builder.options.kept, &builder.note_of));
   FS_ALLOC(ctx, space, 1);
   builder.space = space;
   FS_ALLOC(ctx, owner, mesh->n_faces);
@@ -186,10 +193,12 @@ fs_status fs_space_create_with(fs_context *ctx, const fs_mesh *mesh, const fs_sp
   FS_TRY(connect(ctx, mesh, space));
   FS_ALLOC(ctx, space->start, space->n_dofs);
   memcpy(space->start, mesh->position, (size_t)mesh->n_vertices * sizeof *space->start);
+  fs_builder_take_caps(&builder, space, space->start);
   *result = space;
   space = NULL;
 done:
   fs_release(ctx, owner);
+  fs_release(ctx, builder.note_of);
   fs_space_free(ctx, space);
   return status;
 }

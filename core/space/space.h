@@ -52,6 +52,18 @@ fs_status fs_builder_add_cap(fs_space_builder *builder, int32_t spoke, int32_t n
 /* Never NULL; max_full_valence is set. */
 const fs_space_options *fs_builder_options(const fs_space_builder *builder);
 
+/* The coefficients that are kept for the cap at a vertex; NULL: none. */
+const fs_cap_note *fs_builder_kept(const fs_space_builder *builder, int32_t vertex);
+
+/* Half-edge from one vertex to another, or FS_NONE: no edge joins them. */
+int32_t fs_find_halfedge(const fs_mesh *mesh, int32_t from, int32_t to);
+
+/* fs_space_check_caps, and note_of[n_vertices]: 1 + the number of its cap in the notes; 0: none. The caller frees. */
+fs_status fs_space_find_caps(fs_context *ctx, const fs_mesh *mesh, const fs_cap_notes *notes, int32_t **note_of);
+
+/* start[n_dofs]: copies what is kept to the dofs of the caps. */
+void fs_builder_take_caps(const fs_space_builder *builder, const fs_space *space, fs_vec3 *start);
+
 extern const fs_patch_rule fs_rule_trim, fs_rule_bspline, fs_rule_g2cap;
 
 #endif

@@ -75,11 +75,32 @@ typedef struct fs_mesh_summary {
 } fs_mesh_summary;
 FS_API fs_status fs_mesh_summarise(fs_context *ctx, const fs_mesh *mesh, fs_mesh_summary *summary);
 
+/* The inner coefficients of a cap, as they are kept beside a mesh [docs/g2caps.md, section 10]. */
+typedef struct fs_cap_note {
+  int32_t vertex;   /* in the middle of the cap */
+  int32_t spoke;    /* the vertex at the other end of the edge from which the sectors are counted */
+  int32_t valence;  /* of vertex */
+  int32_t first, n; /* its coefficients: those of the whole cap, or those and 16 in each sector */
+} fs_cap_note;
+
+enum { FS_CAP_BASIS = 1 }; /* number of the functions that coefficients belong to; another one is refused */
+
+/* Those of a mesh: fs_space_create_with takes them, fs_space_keep_caps makes them. Caps that are not there have none. */
+typedef struct fs_cap_notes {
+  int32_t basis, n_caps, n_coefficients;
+  fs_cap_note *cap;     /* [n_caps] */
+  fs_vec3 *coefficient; /* [n_coefficients] */
+} fs_cap_notes;
+/* Arrays of zeros, for the caller to fill; basis is set. */
+FS_API fs_status fs_cap_notes_create(fs_context *ctx, int32_t n_caps, int32_t n_coefficients, fs_cap_notes **notes);
+FS_API void fs_cap_notes_free(fs_context *ctx, fs_cap_notes *notes); /* NULL is allowed */
+
 /* What a file may say about its control mesh besides the polygons. All zero: nothing. */
 typedef struct fs_mesh_notes {
   uint8_t *fixed;               /* [n_vertices] 1 where fairing kept the vertex; NULL: not said */
   char *made_with, *functional; /* as in fs_model; NULL: not said */
   int32_t n_refinements;
+  fs_cap_notes *caps; /* as the file says, fit for the mesh or not; NULL: not said */
 } fs_mesh_notes;
 FS_API void fs_mesh_notes_clear(fs_context *ctx, fs_mesh_notes *notes);
 

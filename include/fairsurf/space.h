@@ -60,7 +60,8 @@ typedef struct fs_space {
   fs_extraction *extraction;
   fs_cap *cap; /* [n_caps] in the order of their vertices, and so are their dofs, which follow those of the vertices */
   int32_t *dof;
-  fs_vec3 *start; /* [n_dofs] positions of the control vertices, zero for further dofs */
+  fs_vec3
+      *start; /* [n_dofs] positions of the control vertices; zero, or coefficients that were kept, for further dofs */
 } fs_space;
 
 /* Derivatives up to order 3, numbered the same everywhere. */
@@ -96,12 +97,25 @@ typedef enum fs_cap_inner {
 typedef struct fs_space_options {
   fs_cap_inner caps;
   int32_t max_full_valence; /* caps of larger valence are smooth where full ones are asked for; 0: 8 */
+  const fs_cap_notes *kept; /* coefficients to start with, or NULL: none. Their caps begin at their spokes, and are full
+                               where they are full. What caps has no room for is left out */
 } fs_space_options;
 
-/* options may be NULL. */
+/* options may be NULL. Coefficients that do not fit the mesh are FS_ERR_FORMAT, as fs_space_check_caps says. */
 FS_API fs_status fs_space_create_with(fs_context *ctx, const fs_mesh *mesh, const fs_space_options *options,
                                       fs_space **space);
 FS_API void fs_space_free(fs_context *ctx, fs_space *space); /* NULL is allowed */
+
+/* Whether the coefficients fit the mesh: FS_ERR_FORMAT names the first cap that does not, and says why. */
+FS_API fs_status fs_space_check_caps(fs_context *ctx, const fs_mesh *mesh, const fs_cap_notes *notes);
+
+/* The inner coefficients among the dofs c of a space over the mesh, to be kept with it. Caps whose coefficients are all
+   zero are left out; NULL where all are. The caller frees. */
+FS_API fs_status fs_space_keep_caps(fs_context *ctx, const fs_mesh *mesh, const fs_space *space, const fs_vec3 *c,
+                                    fs_cap_notes **notes);
+
+/* fixed[n_dofs]: fixes the inner coefficients of caps whose vertices are all fixed, so that their surface stays. */
+FS_API void fs_space_fix_caps(const fs_space *space, bool *fixed);
 
 /* Checks the invariants: partition of unity of every extraction, element to element adjacency both ways, dofs in range,
    vertices and offsets in their places. */
