@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Formats the C sources with clang-format 14. Usage: scripts/format.sh [--check]      --check: only say what differs
+# Formats the sources in C and C++ with clang-format 14. Usage: scripts/format.sh [--check]      --check: only say what differs
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,5 +16,5 @@ case "${1:-}" in
   --check) mode=(--dry-run --Werror) ;;
   *) echo "usage: $0 [--check]" >&2; exit 2 ;;
 esac
-find include core exporters cli samples tests bench plugins -type f \( -name '*.c' -o -name '*.h' \) -print0 2>/dev/null |
+find include core exporters cli samples tests bench plugins web -type f \( -name '*.c' -o -name '*.h' -o -name '*.cc' \) -print0 2>/dev/null |
   sort -z | xargs -0 -r "$format" "${mode[@]}"
