@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* The POV-Ray exporter: NAME.inc, the object alone, and NAME.pov, a scene that shows it. */
+/* The POV-Ray exporter: NAME.inc, the object alone, NAME.pov, a scene that shows it, and NAME.ini where it turns. */
 #include "povray.h"
 #include "base/base.h"
 #include "math/vec3.h"
 
-static const char *const scene_names[] = {"shaded", "zebra", "isophote", "curvature", NULL};
+static const char *const scene_names[] = {"shaded", "zebra", "isophote", "curvature", "turntable", NULL};
 static const char *const form_names[] = {"bicubic", "mesh2", NULL};
 
-enum { SCENE, FORM, STEPS, TOLERANCE, N_PARAMS };
+enum { SCENE, FORM, STEPS, TOLERANCE, FRAMES, N_PARAMS };
 enum { FORM_BICUBIC, FORM_MESH2 };
 
 static const fs_param params[] = {
-    [SCENE] = {"scene", "how the scene shows the surface; curvature implies mesh2", 0, 0, 3, scene_names},
+    [SCENE] = {"scene", "how the scene shows the surface; curvature implies mesh2", 0, 0, 4, scene_names},
     [FORM] = {"pov", "what the object consists of", FORM_BICUBIC, 0, 1, form_names},
-    [STEPS] = {"steps",
-               "each patch is drawn as 2^steps x 2^steps cells; 0: 4 up to 1500 patches, then fewer, more for caps", 0,
-               0, 8, NULL},
+    [STEPS] = {"pov-steps",
+               "each patch is drawn as 2^N x 2^N cells; 0: 4 up to 1500 patches, then fewer, more for caps", 0, 0, 8,
+               NULL},
     [TOLERANCE] = {"tolerance", "largest distance of bicubic pieces from other patches, as part of the box diagonal",
                    1e-4, 1e-9, 1, NULL},
+    [FRAMES] = {"frames", "pictures of a whole turn that NAME.ini of the turntable makes", 36, 2, 10000, NULL},
     [N_PARAMS] = {0},
 };
 
@@ -67,7 +68,7 @@ static fs_status write_bicubic(fs_context *ctx, fs_povray_model *model, const fs
   if (model->steps == 0) model->steps = automatic_steps(pieces->n_pieces);
   if (model->steps <= pieces->m && pieces->n_divided > 0) model->steps = pieces->m + 1;
   if (pieces->deviation > model->tolerance)
-    fs_note(ctx, "the POV-Ray pieces deviate by %.2g, more than the tolerance %.2g: raise steps", pieces->deviation,
+    fs_note(ctx, "the POV-Ray pieces deviate by %.2g, more than the tolerance %.2g: raise pov-steps", pieces->deviation,
             model->tolerance);
   FS_TRY(fs_povray_write_bicubic(ctx, model, pieces, output));
 done:
@@ -86,6 +87,7 @@ static fs_status write(fs_context *ctx, const fs_model *given, const double *par
   if (model.colour == NULL) model.colour = fs_measures[0];
   fs_povray_name(model.name, written.name);
   written.steps = (int32_t)param[STEPS];
+  written.is_turning = scene == FS_POVRAY_TURNTABLE;
   FS_TRY(fs_povray_find_view(ctx, &written));
   written.tolerance = param[TOLERANCE] * fs_vec3_distance(written.min, written.max);
   if (scene == FS_POVRAY_CURVATURE)
@@ -95,6 +97,7 @@ static fs_status write(fs_context *ctx, const fs_model *given, const double *par
   else
     FS_TRY(write_bicubic(ctx, &written, output));
   FS_TRY(fs_povray_write_scene(ctx, &written, scene, output));
+  if (scene == FS_POVRAY_TURNTABLE) FS_TRY(fs_povray_write_turn(ctx, &written, (int32_t)param[FRAMES], output));
 done:
   return status;
 }

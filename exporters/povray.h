@@ -14,7 +14,8 @@ bool fs_povray_is_reserved(const char *word);
 /* Numbers rounded to some digits, with a point whatever the locale says. */
 void fs_povray_number(fs_writer *writer, double value, int digits);
 void fs_povray_vector(fs_writer *writer, fs_vec3 value, int digits); /* <x,y,z> */
-void fs_povray_include(fs_writer *writer, const char *stem);         /* #include "stem.inc" */
+/* stem and extension in quotes, as the language writes names of files. */
+void fs_povray_file(fs_writer *writer, const char *stem, const char *extension);
 
 /* A surface as bicubic Bezier patches. Patches of degree 3 and less stay one piece; others become 2^m x 2^m.
    Along a side that two patches share the points of both are the same doubles; where a whole patch meets a divided one
@@ -38,7 +39,8 @@ typedef enum fs_povray_scene {
   FS_POVRAY_SHADED,
   FS_POVRAY_ZEBRA,
   FS_POVRAY_ISOPHOTE,
-  FS_POVRAY_CURVATURE
+  FS_POVRAY_CURVATURE,
+  FS_POVRAY_TURNTABLE,
 } fs_povray_scene;
 
 extern const fs_exporter fs_exporter_povray;
@@ -48,6 +50,7 @@ typedef struct fs_povray_model {
   const fs_model *model;
   char name[FS_POVRAY_NAME];
   fs_vec3 min, max; /* of points of the surface, 8x8 steps per patch */
+  bool is_turning;  /* about the vertical line through the middle of the box: the camera sees it from all sides */
   double distance;  /* of the camera from the middle of that box */
   int32_t steps;    /* each patch shows as 2^steps x 2^steps quadrilaterals */
   double tolerance; /* length */
@@ -61,6 +64,9 @@ fs_status fs_povray_write_mesh(fs_context *ctx, const fs_povray_model *model, co
                                const fs_output *output);
 fs_status fs_povray_write_scene(fs_context *ctx, const fs_povray_model *model, fs_povray_scene scene,
                                 const fs_output *output);
+/* NAME.ini, with which the renderer makes n_frames pictures of one turn. */
+fs_status fs_povray_write_turn(fs_context *ctx, const fs_povray_model *model, int32_t n_frames,
+                               const fs_output *output);
 
 /* The direction from the middle of the box to the camera, and the tangent of half the angle that the points fill. */
 #define FS_POVRAY_DIRECTION ((fs_vec3){2.3, -2.9, 2.3})

@@ -75,13 +75,29 @@ static void widen(fs_vec3 *line, int stride, const double wider[2]) {
   for (int k = 0; k < 4; k++) line[k * stride] = out[k];
 }
 
-static void write_piece(fs_writer *w, const char *name, bool is_part, const fs_vec3 *exact) {
+/* Pieces take the parameters of their patch, a square per patch. The renderer wants the corners in the order of points
+   1, 4, 16, 13: u along the rows' numbers, v within a row. */
+static void write_parameters(fs_writer *w, double u, double v, double size) {
+  const double corner[4][2] = {{u, v}, {u, v + size}, {u + size, v + size}, {u + size, v}};
+  for (int k = 0; k < 4; k++) {
+    fs_writer_text(w, k == 0 ? "uv_vectors <" : ",<");
+    fs_povray_number(w, corner[k][0], 5);
+    fs_writer_text(w, ",");
+    fs_povray_number(w, corner[k][1], 5);
+    fs_writer_text(w, ">");
+  }
+  fs_writer_text(w, "\n");
+}
+
+/* Piece `number` of the n x n of a patch; is_part: of one that is divided, maybe into one. */
+static void write_piece(fs_writer *w, const char *name, bool is_part, size_t number, size_t n, const fs_vec3 *exact) {
   const char *steps = is_part ? "Less" : "Steps";
   fs_vec3 point[16];
   for (int k = 0; k < 16; k++) point[k] = exact[k];
   for (int j = 0; j < 4; j++) widen(point + 4 * j, 1, wider_u);
   for (int i = 0; i < 4; i++) widen(point + i, 4, wider_v);
   fs_writer_printf(w, "bicubic_patch { type 1 flatness 0 u_steps %s_%s v_steps %s_%s\n", name, steps, name, steps);
+  write_parameters(w, (double)(number % n) / (double)n, (double)(number / n) / (double)n, 1 / (double)n);
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 4; j++) {
       fs_povray_vector(w, point[i + 4 * j], 12);
@@ -100,8 +116,9 @@ fs_status fs_povray_write_bicubic(fs_context *ctx, const fs_povray_model *model,
   fs_writer_printf(w, "#declare %s =%s\n", model->name, is_union ? " union {" : "");
   for (int32_t p = 0; p < pieces->n_patches; p++) {
     bool is_part = !fs_povray_is_whole(&model->model->surface->patch[p]);
-    for (size_t k = pieces->first[p]; k < pieces->first[p + 1] && w->status == FS_OK; k++)
-      write_piece(w, model->name, is_part, pieces->point + 16 * k);
+    size_t first = pieces->first[p], n = is_part ? (size_t)1 << pieces->m : 1;
+    for (size_t k = first; k < pieces->first[p + 1] && w->status == FS_OK; k++)
+      write_piece(w, model->name, is_part, k - first, n, pieces->point + 16 * k);
   }
   fs_writer_printf(w, "%s#end\n", is_union ? "}\n" : "");
   return fs_writer_finish(w);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Where the camera of a POV-Ray scene stands: the box of the surface, and the distance from which all of it is seen.
+/* Where the camera of a POV-Ray scene stands: the box of the surface, and the distance from which all of it is seen,
+   of a turning one through the whole turn.
 
    A point at (x, y, z) from the middle of the box, x to the right, y up, z towards the camera, is inside a view of
    tangent t seen from distance d where max(|x|, |y|) <= t (d - z). Both forms of the object share the camera, because
@@ -33,12 +34,22 @@ static void extend_box(fs_povray_model *model, fs_vec3 point) {
 
 static fs_vec3 unit(fs_vec3 a) { return fs_vec3_scale(a, 1 / fs_vec3_length(a)); }
 
+/* About z. */
+static fs_vec3 turn(fs_vec3 p, double angle) {
+  double c = cos(angle), s = sin(angle);
+  return (fs_vec3){c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+}
+
 static void extend_distance(fs_povray_model *model, fs_vec3 point) {
+  enum { N_TURNS = 72 };
   const fs_vec3 back = unit(FS_POVRAY_DIRECTION), right = unit(fs_vec3_cross((fs_vec3){0, 0, 1}, back));
   const fs_vec3 up = fs_vec3_cross(back, right);
   fs_vec3 from_middle = fs_vec3_sub(point, fs_vec3_scale(fs_vec3_add(model->min, model->max), 0.5));
-  double aside = fmax(fabs(fs_vec3_dot(from_middle, right)), fabs(fs_vec3_dot(from_middle, up)));
-  model->distance = fmax(model->distance, fs_vec3_dot(from_middle, back) + aside / FS_POVRAY_TANGENT);
+  for (int k = 0; k < (model->is_turning ? N_TURNS : 1); k++) {
+    fs_vec3 turned = turn(from_middle, k * (2 * 3.14159265358979323846 / N_TURNS));
+    double aside = fmax(fabs(fs_vec3_dot(turned, right)), fabs(fs_vec3_dot(turned, up)));
+    model->distance = fmax(model->distance, fs_vec3_dot(turned, back) + aside / FS_POVRAY_TANGENT);
+  }
 }
 
 fs_status fs_povray_find_view(fs_context *ctx, fs_povray_model *model) {

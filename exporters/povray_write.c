@@ -11,11 +11,11 @@ void fs_povray_vector(fs_writer *writer, fs_vec3 value, int digits) {
 }
 
 /* Quotes and backslashes are escaped. */
-void fs_povray_include(fs_writer *writer, const char *stem) {
-  fs_writer_text(writer, "#include \"");
+void fs_povray_file(fs_writer *writer, const char *stem, const char *extension) {
+  fs_writer_text(writer, "\"");
   for (; *stem != '\0'; stem++) {
     if (*stem == '"' || *stem == '\\') fs_writer_text(writer, "\\");
     fs_writer_bytes(writer, stem, 1);
   }
-  fs_writer_text(writer, ".inc\"\n");
+  fs_writer_printf(writer, ".%s\"", extension);
 }

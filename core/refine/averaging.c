@@ -165,8 +165,8 @@ done:
 const fs_refiner fs_refiner_averaging = {
     .name = "averaging",
     .summary = "doubling followed by averagings: B-spline refinement of any degree, on any mesh",
-    .params = (const fs_param[]){{.name = "steps",
-                                  .summary = "number of averagings; the degree on a regular grid",
+    .params = (const fs_param[]){{.name = "averagings",
+                                  .summary = "how many; the degree on a regular grid",
                                   .initial = 3,
                                   .min = 1,
                                   .max = 16},

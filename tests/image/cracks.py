@@ -129,7 +129,7 @@ def make_picture(arguments, form, steps, views):
     folder = arguments.out / form
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    extra = ["--steps", str(steps)] if steps else []
+    extra = ["--pov-steps", str(steps)] if steps else []
     render.run([arguments.fairsurf, "export", arguments.mesh, "--pov", form, *extra, "--name", "sample", "-o",
                 folder / "sample.pov"], folder, folder / "fairsurf.log")
     inc = folder / "sample.inc"

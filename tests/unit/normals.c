@@ -80,7 +80,7 @@ static memory_output export(const sample *s, const char *extension, int steps, c
   fs_model model = {.name = "m", .surface = s->surface, .colour = colour};
   double param[32];
   for (int k = 0; exporter->params[k].name != NULL; k++) param[k] = exporter->params[k].initial;
-  memory_output_set(exporter, param, "steps", steps);
+  memory_output_set(exporter, param, strcmp(extension, "pov") == 0 ? "pov-steps" : "steps", steps);
   if (choice != NULL) memory_output_set(exporter, param, choice, value);
   if (fs_export(&ctx, &model, exporter, param, &output) != FS_OK) fail_msg("%s", ctx.message);
   return file;

@@ -56,7 +56,7 @@ static fs_status export(fs_context *ctx, const fs_surface *surface, const char *
                         double steps, double tolerance, struct memory_output *memory) {
   const fs_output output = {open_memory, memory};
   const fs_model model = {.name = name, .surface = surface, .made_with = "two\nlines"};
-  const double param[] = {scene, form, steps, tolerance};
+  const double param[] = {scene, form, steps, tolerance, 12};
   return fs_exporter_povray.write(ctx, &model, param, &output);
 }
 
@@ -104,6 +104,57 @@ static void test_counts(void **state) {
   sample_free(s);
 }
 
+/* The parameters of the pieces, in the renderer's order of corners, fill the unit square of their patch. */
+static void test_parameters(void **state) {
+  fs_surface *s = sample_torus(8, 6, some, 0.05);
+  fs_context ctx = test_context();
+  struct memory_output memory = {0};
+  int n = 0, n_parts = 0;
+  double area = 0;
+  (void)state;
+  assert_int_equal(export(&ctx, s, "a", 0, 0, 3, 1e-9, &memory), FS_OK);
+  for (const char *c = memory.file[0].text; (c = strstr(c, "uv_vectors ")) != NULL; c++, n++) {
+    double u[4], v[4];
+    assert_int_equal(sscanf(c, "uv_vectors <%lf,%lf>,<%lf,%lf>,<%lf,%lf>,<%lf,%lf>\n", &u[0], &v[0], &u[1], &v[1],
+                            &u[2], &v[2], &u[3], &v[3]),
+                     8);
+    assert_true(u[0] == u[1] && u[2] == u[3] && v[0] == v[3] && v[1] == v[2]);
+    assert_true(u[0] >= 0 && v[0] >= 0 && u[2] <= 1 && v[2] <= 1 && u[2] - u[0] == v[2] - v[0]);
+    assert_true(u[2] - u[0] == 1 || u[2] - u[0] == 0.25);
+    area += (u[2] - u[0]) * (v[2] - v[0]);
+    n_parts += u[2] - u[0] == 0.25;
+  }
+  assert_int_equal(n, 39 + 9 * 16);
+  assert_int_equal(n_parts, 9 * 16);
+  assert_true(area == 48);
+  clear(&memory);
+  sample_free(s);
+}
+
+/* A scene that turns comes with the settings of a whole turn, and its camera stands back far enough for all of it. */
+static void test_turn(void **state) {
+  fs_surface *s = sample_torus(6, 5, NULL, 0);
+  fs_context ctx = test_context();
+  struct memory_output memory = {0}, still = {0};
+  double distance, still_distance;
+  (void)state;
+  for (size_t k = 0; k < s->n_data; k += 3) s->data[k + 1] *= 4; /* long, so that turning it matters */
+  assert_int_equal(export(&ctx, s, "a", FS_POVRAY_TURNTABLE, 0, 0, 1e-4, &memory), FS_OK);
+  assert_int_equal(export(&ctx, s, "a", FS_POVRAY_SHADED, 0, 0, 1e-4, &still), FS_OK);
+  assert_int_equal(memory.n_files, 3);
+  assert_string_equal(memory.file[2].extension, "ini");
+  assert_int_equal(count(memory.file[2].text, "Input_File_Name=\"a.pov\"\n"), 1);
+  assert_int_equal(count(memory.file[2].text, "Final_Frame=12\n"), 1);
+  assert_int_equal(count(memory.file[1].text, "rotate 360 * clock * z"), 1);
+  assert_int_equal(count(still.file[1].text, "clock"), 0);
+  assert_int_equal(sscanf(strstr(memory.file[1].text, "a_Distance = "), "a_Distance = %lf", &distance), 1);
+  assert_int_equal(sscanf(strstr(still.file[1].text, "a_Distance = "), "a_Distance = %lf", &still_distance), 1);
+  assert_true(distance > 1.05 * still_distance);
+  clear(&memory);
+  clear(&still);
+  sample_free(s);
+}
+
 static void test_scenes(void **state) {
   static const char *const sign[] = {"interior_texture", "triangle_wave", "slope", "uv_mapping"};
   fs_surface *s = sample_torus(6, 5, NULL, 0);
@@ -115,6 +166,9 @@ static void test_scenes(void **state) {
     for (int k = 0; k < 4; k++) assert_int_equal(count(memory.file[1].text, sign[k]), k == scene);
     assert_int_equal(count(memory.file[0].text, "mesh2 {"), scene == 3);
     assert_int_equal(count(memory.file[0].text, "uv_vectors {"), scene == 3);
+    assert_int_equal(memory.n_files, 2);
+    assert_int_equal(count(memory.file[1].text, "#ifndef (a_Texture) #declare a_Texture = texture {\n"), 1);
+    assert_true(count(memory.file[1].text, "texture { a_Texture }") == 1);
     assert_int_equal(count(memory.file[0].text, "bicubic_patch"), scene == 3 ? 0 : 30);
     clear(&memory);
   }
@@ -263,8 +317,8 @@ static void test_printed_corners(void **state) {
   enum { N = 30 * 16 };
   static fs_vec3 point[N];
   int n = 0, n_distinct = 0;
-  for (char *c = strstr(memory.file[0].text, "bicubic_patch"); (c = strchr(c, '<')) != NULL && n < N; c++, n++)
-    assert_int_equal(sscanf(c, "<%lf,%lf,%lf>", &point[n].x, &point[n].y, &point[n].z), 3);
+  for (char *c = strstr(memory.file[0].text, "bicubic_patch"); (c = strchr(c, '<')) != NULL && n < N; c++)
+    n += sscanf(c, "<%lf,%lf,%lf>", &point[n].x, &point[n].y, &point[n].z) == 3; /* the others are parameters */
   assert_int_equal(n, N);
   for (int k = 0; k < N; k++) {
     int l = 0;
@@ -332,7 +386,7 @@ static void test_refusals(void **state) {
   (void)state;
   assert_int_equal(export(&ctx, NULL, "a", 0, 0, 0, 1e-4, &memory), FS_ERR_ARGUMENT);
   assert_int_equal(export(&ctx, &none, "a", 0, 0, 0, 1e-4, &memory), FS_ERR_ARGUMENT);
-  assert_int_equal(export(&ctx, s, "a", 4, 0, 0, 1e-4, &memory), FS_ERR_ARGUMENT);
+  assert_int_equal(export(&ctx, s, "a", 5, 0, 0, 1e-4, &memory), FS_ERR_ARGUMENT);
   assert_int_equal(export(&ctx, s, "a", 0, 0, 9, 1e-4, &memory), FS_ERR_ARGUMENT);
   assert_int_equal(export(&ctx, s, "a", 0, 0, 0, NAN, &memory), FS_ERR_ARGUMENT);
   assert_int_equal(export(&ctx, s, "a\nb", 0, 0, 0, 1e-4, &memory), FS_ERR_ARGUMENT);
@@ -385,9 +439,17 @@ static void test_memory(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_counts),        cmocka_unit_test(test_scenes),          cmocka_unit_test(test_mesh2),
-      cmocka_unit_test(test_shared_points), cmocka_unit_test(test_printed_corners), cmocka_unit_test(test_names),
-      cmocka_unit_test(test_locale),        cmocka_unit_test(test_refusals),        cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_counts),
+      cmocka_unit_test(test_scenes),
+      cmocka_unit_test(test_mesh2),
+      cmocka_unit_test(test_shared_points),
+      cmocka_unit_test(test_printed_corners),
+      cmocka_unit_test(test_names),
+      cmocka_unit_test(test_locale),
+      cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_parameters),
+      cmocka_unit_test(test_turn),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -387,10 +387,10 @@ static void test_refusals(void **state) {
   fs_mesh *pillow = test_mesh(3, position, 2, start, corner), *quad = test_grid(1, 1, NULL);
   (void)state;
   check_refused(quad, "loop", 3, FS_ERR_UNSUPPORTED, "averaging, catmull-clark");
-  check_refused(quad, "averaging", 0, FS_ERR_ARGUMENT, "steps");
-  check_refused(quad, "averaging", 17, FS_ERR_ARGUMENT, "steps");
+  check_refused(quad, "averaging", 0, FS_ERR_ARGUMENT, "averagings");
+  check_refused(quad, "averaging", 17, FS_ERR_ARGUMENT, "averagings");
   check_refused(quad, "averaging", 2.5, FS_ERR_ARGUMENT, "whole");
-  check_refused(quad, "averaging", NAN, FS_ERR_ARGUMENT, "steps");
+  check_refused(quad, "averaging", NAN, FS_ERR_ARGUMENT, "averagings");
   check_refused(quad, "averaging", 3, FS_ERR_UNSUPPORTED, "no face");
   check_refused(pillow, "averaging", 3, FS_ERR_UNSUPPORTED, "vertex 0");
   release(NULL, refine(quad, "averaging", 2));
