@@ -10,6 +10,7 @@
 #include <fairsurf/space.h>
 #include <fairsurf/fair.h>
 #include <fairsurf/surface.h>
+#include <fairsurf/construct.h>
 #include <fairsurf/analyse.h>
 #include <fairsurf/export.h>
 #include <fairsurf/file.h>

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: MIT */
+/* The lines of the table of constructions. */
+#ifndef FS_CONSTRUCT_CONSTRUCT_H
+#define FS_CONSTRUCT_CONSTRUCT_H
+
+#include <fairsurf/construct.h>
+
+extern const fs_construction fs_construction_gregory;
+
+#endif
