@@ -25,25 +25,66 @@ static void bernstein(int32_t degree, double t, double basis[N_ORDERS][FS_MAX_DE
   }
 }
 
+/* An axis of the patch: the degree, how far apart its points are in the array, the basis at the parameter. */
+typedef struct axis {
+  int32_t degree, stride;
+  double basis[N_ORDERS][FS_MAX_DEGREE + 1];
+} axis;
+
+/* sum[k] = sum over i of basis[k][i] point[stride i], k < n_orders, from both ends inwards: the same bits when the points
+   come the other way round. */
+static void sum_line(const axis *a, int32_t stride, const double *point, int n_orders, fs_vec3 *sum) {
+  const double *low = point, *high = point + (ptrdiff_t)stride * a->degree;
+  for (int k = 0; k < n_orders; k++) sum[k] = (fs_vec3){0, 0, 0};
+  for (int32_t i = 0, j = a->degree; i <= j; i++, j--, low += stride, high -= stride)
+    for (int k = 0; k < n_orders; k++) {
+      double at_low = a->basis[k][i], at_high = i < j ? a->basis[k][j] : 0;
+      sum[k].x += at_low * low[0] + at_high * high[0];
+      sum[k].y += at_low * low[1] + at_high * high[1];
+      sum[k].z += at_low * low[2] + at_high * high[2];
+    }
+}
+
+/* x of all orders, summed along the first axis first. */
+static void sum_lines(const axis *first, const axis *second, bool is_u_first, const double *point, fs_vec3 *x) {
+  static const int8_t number[N_ORDERS][N_ORDERS] = {/* of the derivative of order [by u][by v] */
+                                                    {FS_D, FS_DV, FS_DVV, FS_DVVV},
+                                                    {FS_DU, FS_DUV, FS_DUVV},
+                                                    {FS_DUU, FS_DUUV},
+                                                    {FS_DUUU}};
+  fs_vec3 line[N_ORDERS], column[N_ORDERS][FS_MAX_DEGREE + 1], sum[N_ORDERS];
+  for (int32_t j = 0; j <= second->degree; j++, point += second->stride) {
+    sum_line(first, first->stride, point, N_ORDERS, line);
+    for (int a = 0; a < N_ORDERS; a++) column[a][j] = line[a];
+  }
+  for (int a = 0; a < N_ORDERS; a++) {
+    sum_line(second, 3, &column[a][0].x, N_ORDERS - a, sum);
+    for (int b = 0; b < N_ORDERS - a; b++) x[is_u_first ? number[a][b] : number[b][a]] = sum[b];
+  }
+}
+
+/* Mirror images of patches give mirror images of points to the last bit, where 1 - u and 1 - v are exact: sums run from both
+   ends inwards, and the axis whose parameter is farther from 1/2 comes first, whichever it is called. */
 void fs_tensor_bezier_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x) {
-  static const int8_t order_u[FS_JET_SIZE] = {0, 1, 0, 2, 1, 0, 3, 2, 1, 0};
-  static const int8_t order_v[FS_JET_SIZE] = {0, 0, 1, 0, 1, 2, 0, 1, 2, 3};
-  double basis_u[N_ORDERS][FS_MAX_DEGREE + 1], basis_v[N_ORDERS][FS_MAX_DEGREE + 1];
-  int32_t n = patch->degree_u, m = patch->degree_v;
-  if (n < 0 || m < 0 || n > FS_MAX_DEGREE || m > FS_MAX_DEGREE) {
+  const double *point = data + patch->data_start;
+  axis by_u, by_v;
+  double from_middle = fabs(u - 0.5) - fabs(v - 0.5);
+  by_u.degree = patch->degree_u, by_u.stride = 3;
+  by_v.degree = patch->degree_v, by_v.stride = 3 * (patch->degree_u + 1);
+  if (by_u.degree < 0 || by_v.degree < 0 || by_u.degree > FS_MAX_DEGREE || by_v.degree > FS_MAX_DEGREE) {
     for (int k = 0; k < FS_JET_SIZE; k++) x[k] = (fs_vec3){NAN, NAN, NAN};
     return;
   }
-  bernstein(n, u, basis_u);
-  bernstein(m, v, basis_v);
-  for (int k = 0; k < FS_JET_SIZE; k++) x[k] = (fs_vec3){0, 0, 0};
-  const double *point = data + patch->data_start;
-  for (int32_t j = 0; j <= m; j++) {
-    fs_vec3 row[N_ORDERS] = {{0, 0, 0}}; /* derivatives by u of row j */
-    for (int32_t i = 0; i <= n; i++, point += 3)
-      for (int k = 0; k < N_ORDERS; k++)
-        row[k] = fs_vec3_add_scaled(row[k], (fs_vec3){point[0], point[1], point[2]}, basis_u[k][i]);
-    for (int k = 0; k < FS_JET_SIZE; k++) x[k] = fs_vec3_add_scaled(x[k], row[order_u[k]], basis_v[order_v[k]][j]);
+  bernstein(by_u.degree, u, by_u.basis);
+  bernstein(by_v.degree, v, by_v.basis);
+  if (from_middle > 0)
+    sum_lines(&by_u, &by_v, true, point, x);
+  else
+    sum_lines(&by_v, &by_u, false, point, x);
+  if (from_middle == 0) { /* neither is: the mean of both */
+    fs_vec3 other[FS_JET_SIZE];
+    sum_lines(&by_u, &by_v, true, point, other);
+    for (int k = 0; k < FS_JET_SIZE; k++) x[k] = fs_vec3_scale(fs_vec3_add(x[k], other[k]), 0.5);
   }
 }
 

@@ -149,6 +149,37 @@ FS_API fs_status fs_space_prepare(fs_context *ctx, const fs_mesh *mesh, int32_t 
    vertices are all fixed. */
 FS_API fs_status fs_space_rim(fs_context *ctx, const fs_mesh *mesh, const fs_space *space, bool *fixed);
 
+/* A mirror symmetry of a mesh and of the space over it. */
+typedef struct fs_symmetry {
+  fs_vec3 normal; /* unit length; the plane is normal . p = offset */
+  double offset;
+  double deviation; /* largest distance of a vertex of the mesh from where its mirror image says that it lies */
+  int32_t n_vertices, n_elements;
+  int32_t *vertex;  /* [n_vertices] the mirror image of each; of itself on the plane */
+  int32_t *element; /* [n_elements] the mirror image of each */
+  uint8_t *side;    /* [n_elements] the side of the image that is the image of side 0: the image of (u, v) is at
+                       (1 - u, v), (1 - v, 1 - u), (u, 1 - v), (v, u) for 0, 1, 2, 3 */
+} fs_symmetry;
+
+/* The symmetry of a mesh about the plane normal . p = offset, or, where normal is NULL, about a plane that is searched:
+   coordinate planes through the origin and through the centre of the vertices first, then all others. Vertices may
+   deviate by 1e-6 of the diagonal of their bounding box. FS_ERR_ARGUMENT names the first vertex or face that has no
+   mirror image, or says that there is no plane. A plane within 1e-9 of a coordinate plane is taken for it. */
+FS_API fs_status fs_symmetry_create(fs_context *ctx, const fs_mesh *mesh, const fs_space *space, const fs_vec3 *normal,
+                                    double offset, fs_symmetry **symmetry);
+FS_API void fs_symmetry_free(fs_context *ctx, fs_symmetry *symmetry); /* NULL is allowed */
+
+/* The mirror image of a point. Exact, and back again the same bits, for coordinate planes through the origin. */
+FS_API fs_vec3 fs_symmetry_reflect(const fs_symmetry *symmetry, fs_vec3 p);
+
+/* Where the image of the point (u, v) of an element lies in the image of that element. */
+FS_API void fs_symmetry_parameters(const fs_symmetry *symmetry, int32_t element, double u, double v, double *image_u,
+                                   double *image_v);
+
+/* Makes the vertices of c[n_vertices] exactly symmetric: of two images of each other that of the larger number becomes the
+   image of the other, and those that are images of themselves move onto the plane. */
+FS_API void fs_symmetry_apply(const fs_symmetry *symmetry, fs_vec3 *c);
+
 #ifdef __cplusplus
 }
 #endif

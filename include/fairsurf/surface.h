@@ -73,6 +73,12 @@ FS_API extern const fs_patch_kind_info fs_patch_kinds[FS_N_PATCH_KINDS];
 FS_API fs_status fs_surface_create(fs_context *ctx, const fs_space *space, const fs_vec3 *c, fs_surface **surface);
 FS_API void fs_surface_free(fs_context *ctx, fs_surface *surface); /* NULL is allowed */
 
+/* Makes the surface of a space exactly symmetric: of two patches that are images of each other that of the larger number
+   becomes the image of the other, and those that are images of themselves the mean of both. Then fs_surface_evaluate gives
+   mirror images at image parameters, to the last bit for coordinate planes through the origin and parameters t whose 1 - t
+   is exact. patch i must be element i, as fs_surface_create makes them. */
+FS_API fs_status fs_surface_mirror(fs_context *ctx, const fs_symmetry *symmetry, fs_surface *surface);
+
 /* Checks the invariants of a surface that a program made itself: known kinds and degrees, data within n_data and finite,
    neighbours that agree from both sides. Messages name the patch. */
 FS_API fs_status fs_surface_validate(fs_context *ctx, const fs_surface *surface);
