@@ -166,15 +166,10 @@ static const fs_functional functional_area = {.name = "area",
                                               .combine = area_penalised,
                                               .is_linear = true};
 
-const fs_functional *const fs_functionals[] = {&functional_penalised,
-                                               &functional_curvature_variation,
-                                               &functional_scale_free,
-                                               &functional_scale_free_penalised,
-                                               &functional_willmore,
-                                               &functional_area,
-                                               &functional_triharmonic,
-                                               &functional_thin_plate,
-                                               NULL};
+const fs_functional *const fs_functionals[] = {
+    &functional_curvature_variation,  &functional_penalised,  &functional_scale_free,
+    &functional_scale_free_penalised, &functional_willmore,   &functional_area,
+    &functional_triharmonic,          &functional_thin_plate, NULL};
 
 const fs_functional *fs_functional_find(const char *name) {
   for (int i = 0; fs_functionals[i] != NULL; i++)

@@ -68,7 +68,8 @@ def make(arguments, name):
     """The .scad file and the surface as points, normals and triangles."""
     mesh, command, _, steps, _ = CASES[name]
     scad, ply = arguments.out / f"{name}.scad", arguments.out / f"{name}.ply"
-    must([arguments.fairsurf, command, MESHES / mesh, "-q", "--steps", steps, "-o", scad, "--surface", "-o", ply])
+    must([arguments.fairsurf, command, MESHES / mesh, "-q", "--functional", "penalised", "--steps", steps, "-o", scad,
+          "--surface", "-o", ply])
     return scad, solid.read_ply(ply)
 
 

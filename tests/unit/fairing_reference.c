@@ -44,8 +44,11 @@ static fs_fair_report run(const char *name, bool with_marks, int32_t nodes, int3
   assert_int_equal(fs_space_rim(&ctx, mesh, space, fixed), FS_OK);
   if (with_marks) read_marks(name, fixed, mesh->n_vertices);
   memcpy(c, space->start, (size_t)space->n_dofs * sizeof *c);
-  fs_fair_options options = {
-      .fixed = fixed, .n_nodes_square = nodes, .n_nodes_cap = nodes, .max_iterations = max_iterations};
+  fs_fair_options options = {.functional = fs_functional_find("penalised"),
+                             .fixed = fixed,
+                             .n_nodes_square = nodes,
+                             .n_nodes_cap = nodes,
+                             .max_iterations = max_iterations};
   assert_int_equal(fs_fair(&ctx, space, &options, c, &report), FS_OK);
   free(fixed);
   free(c);

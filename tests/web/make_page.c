@@ -41,7 +41,9 @@ static fs_status make(fs_context *ctx, job *j, const char *path, int32_t n_steps
   memcpy(j->c, j->space->start, (size_t)j->space->n_dofs * sizeof *j->c);
   if (n_iterations > 0) {
     TRY(fs_space_rim(ctx, fine, j->space, j->fixed));
-    TRY(fs_fair(ctx, j->space, &(fs_fair_options){.fixed = j->fixed, .max_iterations = n_iterations}, j->c, &report));
+    fs_fair_options options = {
+        .functional = fs_functional_find("penalised"), .fixed = j->fixed, .max_iterations = n_iterations};
+    TRY(fs_fair(ctx, j->space, &options, j->c, &report));
   }
   TRY(fs_mesh_copy(ctx, fine, &j->control));
   memcpy(j->control->position, j->c, (size_t)j->control->n_vertices * sizeof *j->c);
