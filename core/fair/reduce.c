@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: an affine map of the unknowns, applied to points, gradients and Hessians:
-     x = x0 + T y,   g_y = T^T g,   H_y = T^T H T = sum over blocks (i, j) of H, columns a of row i and b of row j,
-                                    of T_ia^T H_ij T_jb. */
+     x = x0 + T y,   g_y = T^T g,   H_y = T^T H T = A + A^T,  A = T^T L T,
+   L the lower triangle of H with half its diagonal. A is made column by column of L: first w = T^T L_j, then w T_j. */
 #include "fair/reduce.h"
 
 #include <string.h>
@@ -85,31 +85,45 @@ done:
   return status;
 }
 
-/* out = A B, or A^T B */
-static void multiply(const double *A, const double *B, bool is_transposed, double *out) {
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) {
-      double sum = 0;
-      for (int k = 0; k < 3; k++) sum += (is_transposed ? A[3 * k + i] : A[3 * i + k]) * B[3 * k + j];
-      out[3 * i + j] = sum;
-    }
+/* The part of T^T L_j that is not zero: n blocks, their rows, and where each row is in the list. */
+typedef struct gathered {
+  int32_t n, *row, *place; /* [n_columns]; place: 1 + number in the list, 0: not in it */
+  double *block;           /* [n_columns][9] */
+} gathered;
+
+/* w_a += T_ia^T L_ij for the entries e of row i. */
+static void gather_block(const fs_reduction *r, int32_t e, const double *L, gathered *w) {
+  int32_t a = r->column[e];
+  double *to;
+  if (w->place[a] == 0) {
+    w->row[w->n++] = a;
+    w->place[a] = w->n;
+    memset(w->block + 9 * (size_t)(w->n - 1), 0, 9 * sizeof *w->block);
+  }
+  to = w->block + 9 * (size_t)(w->place[a] - 1);
+  if (r->weight != NULL) {
+    for (int k = 0; k < 9; k++) to[k] += r->weight[e] * L[k];
+  } else {
+    const double *T = r->block + 9 * (size_t)e;
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++) to[3 * i + j] += T[i] * L[j] + T[3 + i] * L[3 + j] + T[6 + i] * L[6 + j];
+  }
 }
 
-/* Adds T_ia^T H T_jb at (a, b) of the lower triangle, and where i != j its transpose at (b, a): the product is all that H
-   says of the pair (i, j). */
-static void add_product(const fs_reduction *r, const double *H, bool is_diagonal, int32_t p, int32_t q,
-                        fs_sparse *reduced) {
-  int32_t a = r->column[p], b = r->column[q];
-  double right[9], block[9], turned[9];
+/* Adds X = w_a T_jb and its transpose. */
+static void add_product(const fs_reduction *r, int32_t e, int32_t a, const double *w, fs_sparse *reduced) {
+  int32_t b = r->column[e];
+  double X[9], turned[9];
   if (r->weight != NULL) {
-    for (int k = 0; k < 9; k++) block[k] = r->weight[p] * r->weight[q] * H[k];
+    for (int k = 0; k < 9; k++) X[k] = r->weight[e] * w[k];
   } else {
-    multiply(H, r->block + 9 * (size_t)q, false, right);
-    multiply(r->block + 9 * (size_t)p, right, true, block);
+    const double *T = r->block + 9 * (size_t)e;
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++) X[3 * i + j] = w[3 * i] * T[j] + w[3 * i + 1] * T[3 + j] + w[3 * i + 2] * T[6 + j];
   }
-  if (a >= b) fs_sparse_add(reduced, a, b, block);
-  if (is_diagonal || a > b) return;
-  for (int k = 0; k < 9; k++) turned[k] = block[3 * (k % 3) + k / 3];
+  if (a >= b) fs_sparse_add(reduced, a, b, X);
+  if (a > b) return;
+  for (int k = 0; k < 9; k++) turned[k] = X[3 * (k % 3) + k / 3];
   fs_sparse_add(reduced, b, a, turned);
 }
 
@@ -126,20 +140,42 @@ static void fill_idle(const fs_reduction *r, fs_sparse *reduced) {
   }
 }
 
-void fs_reduction_hessian(const fs_reduction *r, const fs_sparse *hessian, fs_sparse *reduced) {
+/* Block k of column j of the lower triangle, half of it on the diagonal. */
+static void get_block(const fs_sparse *hessian, int32_t j, int32_t k, double *L) {
+  size_t n = (size_t)(hessian->col_start[j + 1] - hessian->col_start[j]);
+  const double *value = hessian->value + 9 * (size_t)hessian->col_start[j];
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++) L[3 * a + b] = value[3 * n * (size_t)b + 3 * (size_t)k + (size_t)a];
+  if (k > 0) return;
+  L[1] = L[3], L[2] = L[6], L[5] = L[7]; /* above the diagonal nothing need be meant */
+  for (int i = 0; i < 9; i++) L[i] *= 0.5;
+}
+
+fs_status fs_reduction_hessian(fs_context *ctx, const fs_reduction *r, const fs_sparse *hessian, fs_sparse *reduced) {
+  fs_status status = FS_OK;
+  gathered w = {0};
+  FS_ALLOC(ctx, w.row, r->n_columns);
+  FS_ALLOC(ctx, w.place, r->n_columns);
+  FS_ALLOC(ctx, w.block, 9 * (size_t)r->n_columns);
   fs_sparse_clear(reduced);
   for (int32_t j = 0; j < hessian->n_blocks; j++) {
     int32_t n = hessian->col_start[j + 1] - hessian->col_start[j];
-    const double *value = hessian->value + 9 * (size_t)hessian->col_start[j];
+    if (r->row_start[j] == r->row_start[j + 1]) continue;
+    w.n = 0;
     for (int32_t k = 0; k < n; k++) {
       int32_t i = hessian->row[hessian->col_start[j] + k];
-      double H[9];
-      for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) H[3 * a + b] = value[3 * (size_t)n * b + 3 * (size_t)k + a];
-      if (i == j) H[1] = H[3], H[2] = H[6], H[5] = H[7]; /* above the diagonal nothing need be meant */
-      for (int32_t p = r->row_start[i]; p < r->row_start[i + 1]; p++)
-        for (int32_t q = r->row_start[j]; q < r->row_start[j + 1]; q++) add_product(r, H, i == j, p, q, reduced);
+      double L[9];
+      get_block(hessian, j, k, L);
+      for (int32_t e = r->row_start[i]; e < r->row_start[i + 1]; e++) gather_block(r, e, L, &w);
     }
+    for (int32_t e = r->row_start[j]; e < r->row_start[j + 1]; e++)
+      for (int32_t k = 0; k < w.n; k++) add_product(r, e, w.row[k], w.block + 9 * (size_t)k, reduced);
+    for (int32_t k = 0; k < w.n; k++) w.place[w.row[k]] = 0;
   }
   fill_idle(r, reduced);
+done:
+  fs_release(ctx, w.row);
+  fs_release(ctx, w.place);
+  fs_release(ctx, w.block);
+  return status;
 }

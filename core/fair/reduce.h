@@ -31,6 +31,7 @@ fs_status fs_reduction_pattern(fs_context *ctx, const fs_reduction *reduction, i
                                const int32_t *member, fs_sparse **pattern);
 
 /* reduced = T^T H T; the diagonal of idle numbers is the mean of the others of their group, so that it stays definite. */
-void fs_reduction_hessian(const fs_reduction *reduction, const fs_sparse *hessian, fs_sparse *reduced);
+fs_status fs_reduction_hessian(fs_context *ctx, const fs_reduction *reduction, const fs_sparse *hessian,
+                               fs_sparse *reduced);
 
 #endif

@@ -211,7 +211,8 @@ static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, dou
   FS_TRY(fs_progress(s->problem->ctx, "fairing", 0));
   FS_TRY(evaluate(s, order, integral, NULL, f, is_reduced ? s->g : g, is_reduced ? s->problem->pattern : hessian));
   if (is_reduced && order >= FS_GRADIENT) fs_reduction_gather(s->reduction, s->g, g);
-  if (is_reduced && order >= FS_HESSIAN) fs_reduction_hessian(s->reduction, s->problem->pattern, hessian);
+  if (is_reduced && order >= FS_HESSIAN)
+    FS_TRY(fs_reduction_hessian(s->problem->ctx, s->reduction, s->problem->pattern, hessian));
 done:
   return status;
 }

@@ -70,7 +70,7 @@ static void check_products(bool has_blocks, uint64_t seed) {
     for (int j = 0; j < N; j++) Hx[i] += H[i][j] * x[j];
   }
   fs_reduction_gather(&r, Hx, gathered);
-  fs_reduction_hessian(&r, full, reduced);
+  assert_int_equal(fs_reduction_hessian(&ctx, &r, full, reduced), FS_OK);
   fs_sparse_multiply(reduced, y, Hy);
   for (int i = 0; i < M; i++) {
     expected = 0;
@@ -104,7 +104,7 @@ static void test_idle(void **state) {
   assert_int_equal(fs_sparse_create(&ctx, 1, 1, set, one, &full), FS_OK);
   assert_int_equal(fs_reduction_pattern(&ctx, &r, 1, set, one, &reduced), FS_OK);
   for (int k = 0; k < 9; k++) full->value[k] = 1 + k % 4 * 2;
-  fs_reduction_hessian(&r, full, reduced);
+  assert_int_equal(fs_reduction_hessian(&ctx, &r, full, reduced), FS_OK);
   double mean = (full->value[0] + full->value[4]) / 2;
   assert_true(reduced->value[8] == mean);
   assert_true(reduced->value[9] == 1 && reduced->value[13] == 1 && reduced->value[17] == 1);
