@@ -98,6 +98,7 @@ static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
     o.gradient_start = c->gradient_start;
   }
+  c->setup.n_cheap_hessians = stage->is_last && stage->level == 0;
   c->setup.param[0] = stage->C;
   FS_TRY(fs_problem_set_level(c->setup.problem, stage->level));
   FS_TRY(fs_minimise(c->ctx, &objective, &o, c->x, &m));
@@ -117,7 +118,7 @@ static fs_status run_stages(course *c) {
   double last = c->setup.param[0];
   int32_t n = plan_stages(&c->setup, stages);
   bool is_over = false;
-  c->damping = (fs_damping){is_quadratic(c->setup.functional) ? 0 : 1, 0};
+  c->damping = (fs_damping){.nu = is_quadratic(c->setup.functional) ? 0 : 1};
   for (int32_t i = 0; i < n && !is_over; i++) FS_TRY(run_stage(c, &stages[i], &is_over));
 done:
   c->setup.param[0] = last;

@@ -206,18 +206,23 @@ done:
 static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, double *g, fs_sparse *hessian) {
   fs_status status = FS_OK;
   double integral[FS_MAX_TERMS + 2];
-  bool is_reduced = s->reduction != NULL;
+  bool is_reduced = s->reduction != NULL, is_cheap = order == FS_HESSIAN && s->n_cheap_hessians > 0;
+  int32_t level = s->problem->level;
   fs_setup_place(s, x);
+  if (is_cheap) {
+    s->n_cheap_hessians--;
+    FS_TRY(fs_problem_set_level(s->problem, 1));
+  }
   FS_TRY(fs_progress(s->problem->ctx, "fairing", 0));
   FS_TRY(evaluate(s, order, integral, NULL, f, is_reduced ? s->g : g, is_reduced ? s->problem->pattern : hessian));
   if (is_reduced && order >= FS_GRADIENT) fs_reduction_gather(s->reduction, s->g, g);
   if (is_reduced && order >= FS_HESSIAN)
     FS_TRY(fs_reduction_hessian(s->problem->ctx, s->reduction, s->problem->pattern, hessian));
 done:
+  if (is_cheap && s->problem->tables[level] != NULL) s->problem->table = s->problem->tables[s->problem->level = level];
   return status;
 }
 
-static fs_status value(void *self, const double *x, double *f) { return at(self, FS_VALUE, x, f, NULL, NULL); }
 static fs_status gradient(void *self, const double *x, double *f, double *g) {
   return at(self, FS_GRADIENT, x, f, g, NULL);
 }
@@ -246,7 +251,6 @@ fs_objective fs_setup_objective(fs_setup *s, fs_solver *solver) {
                         .pattern = fs_setup_pattern(s),
                         .solver = solver,
                         .self = s,
-                        .value = value,
                         .gradient = gradient,
                         .hessian = hessian,
                         .normal = s->functional->is_scale_free ? normal : NULL};

@@ -17,7 +17,10 @@ typedef struct fs_setup {
   int32_t term_S, term_Q, term_A; /* numbers of these terms; term_A: FS_NONE where the functional has no area */
   fs_reduction *reduction;        /* of the free dofs to fewer unknowns; NULL: the unknowns are the free dofs */
   fs_sparse *reduced;             /* pattern of their Hessian */
-  double *x, *g;                  /* [3 n_free] with a reduction: the free dofs and their gradient */
+  int32_t
+      n_cheap_hessians; /* so many Hessians are integrated with few nodes, although the functional sees all: near enough
+                               for steps that are corrected by gradients */
+  double *x, *g;        /* [3 n_free] with a reduction: the free dofs and their gradient */
 } fs_setup;
 
 /* Chooses the functional (also by whether anything is fixed), checks options and parameters, makes the problem at c. */

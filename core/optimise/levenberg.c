@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Single role: Levenberg-Marquardt with gain ratio on the exact Hessian [Levenberg 1944; Marquardt 1963; Nielsen 1999].
+/* Single role: Levenberg-Marquardt with gain ratio on the exact Hessian [Levenberg 1944; Marquardt 1963; Nielsen 1999], with
+   quasi-Newton steps in between.
 
      step       s = -(H + nu D)^-1 g,   D = mean of the diagonal of each 3x3 block (kept above 1e-3 of its mean over all)
      model      predicted decrease  = -g.s / 2 + nu s.D s / 2
@@ -8,22 +9,33 @@
    nu follows rho: a factorisation costs far more than anything else, so nu falls quickly where the model is good
    (to a Newton step in the end, with its quadratic convergence) and a memory of the largest nu at which H + nu D was not
    definite, or whose step was rejected, keeps it from falling into the same hole at the next step. D makes nu free of units,
-   and being the same for x, y, z, free of rotations. Differs from Nielsen's update, which needs more Hessians. */
+   and being the same for x, y, z, free of rotations. Differs from Nielsen's update, which needs more Hessians.
+
+   For the same reason every factorisation is used again for as long as it pays: steps s = -B g, where B is its inverse
+   corrected by the pairs of steps and gradient changes since (memory.c). One costs a gradient and a solution. */
 #include "optimise/minimise.h"
+#include "optimise/memory.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 enum { MAX_TRIALS = 60 }; /* factorisations for one step: nu has grown beyond any use by then */
+static const double worth_going_on =
+    0.5; /* of a quasi-Newton step: its predicted decrease by that of the step before */
 
 typedef struct state {
   int32_t n;
   double *x, *trial, *g, *g_trial, *s, *diagonal, *shift;
   double *v, *w; /* the normal, and (H + nu D)^-1 times it */
-  double f, nu, nu_min, nu_failed, growth;
-  fs_sparse hessian; /* values of its own on the pattern of the objective */
+  double f, f_trial, nu, nu_min, nu_failed, growth;
+  double nu_factored; /* in the factorisation that is there */
+  fs_sparse hessian;  /* values of its own on the pattern of the objective */
   fs_solver *solver;
+  fs_memory memory;           /* of steps since the last factorisation */
+  bool is_factored;           /* the solver holds a factorisation made near x */
+  double predicted, decrease; /* by the last accepted step */
+  fs_minimise_step step;      /* the last accepted one */
 } state;
 
 static double dot(const double *a, const double *b, size_t n) {
@@ -31,6 +43,8 @@ static double dot(const double *a, const double *b, size_t n) {
   for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
   return sum;
 }
+
+static double norm(const double *a, size_t n) { return sqrt(dot(a, a, n)); }
 
 static double weighted_square(const state *t) {
   double sum = 0;
@@ -46,17 +60,31 @@ static void set_diagonal(state *t) {
   for (int32_t i = 0; i < t->n; i++) t->diagonal[i] = fmax(t->diagonal[i], 1e-3 * mean);
 }
 
+/* d = K^-1 b, K the factored matrix; with a normal v: K^-1 b - mu K^-1 v such that d.v = 0. */
+static fs_status solve(fs_context *ctx, const fs_objective *o, state *t, const double *b, double *d) {
+  fs_status status = FS_OK;
+  size_t n = 3 * (size_t)t->n;
+  FS_TRY(fs_solver_solve(ctx, t->solver, b, d));
+  if (o->normal != NULL) {
+    double mu;
+    FS_TRY(fs_solver_solve(ctx, t->solver, t->v, t->w));
+    mu = dot(t->v, d, n) / dot(t->v, t->w, n);
+    for (size_t i = 0; i < n; i++) d[i] -= mu * t->w[i];
+  }
+done:
+  return status;
+}
+
 /* Factors H + nu D, raising nu until it is positive definite, and solves for the step. */
 static fs_status find_step(fs_context *ctx, const fs_objective *o, state *t, fs_minimise_report *report,
                            int32_t *n_factorisations) {
   fs_status status = FS_OK;
-  bool is_definite = false;
   while (true) {
     for (int32_t i = 0; i < t->n; i++) t->shift[i] = t->nu * t->diagonal[i];
-    FS_TRY(fs_solver_factor(ctx, t->solver, &t->hessian, t->shift, &is_definite));
+    FS_TRY(fs_solver_factor(ctx, t->solver, &t->hessian, t->shift, &t->is_factored));
     report->n_factorisations++;
     ++*n_factorisations;
-    if (is_definite) break;
+    if (t->is_factored) break;
     if (*n_factorisations >= MAX_TRIALS) {
       status = fs_fail(ctx, FS_ERR_NUMERIC, "the Hessian is not positive definite even with a damping of %g", t->nu);
       goto done;
@@ -64,20 +92,17 @@ static fs_status find_step(fs_context *ctx, const fs_objective *o, state *t, fs_
     t->nu_failed = fmax(t->nu_failed, t->nu);
     t->nu = t->nu == 0 ? 1e-9 : t->nu * (t->nu < 1e-4 ? 10 : 4);
   }
-  for (size_t i = 0; i < 3 * (size_t)t->n; i++) t->s[i] = -t->g[i];
-  FS_TRY(fs_solver_solve(ctx, t->solver, t->s, t->s));
-  if (o->normal != NULL) { /* s = -K^-1 g - mu K^-1 v with s.v = 0 */
-    size_t n = 3 * (size_t)t->n;
-    FS_TRY(fs_solver_solve(ctx, t->solver, t->v, t->w));
-    double mu = dot(t->v, t->s, n) / dot(t->v, t->w, n);
-    for (size_t i = 0; i < n; i++) t->s[i] -= mu * t->w[i];
-  }
+  fs_memory_clear(&t->memory);
+  FS_TRY(solve(ctx, o, t, t->g, t->s));
+  for (size_t i = 0; i < 3 * (size_t)t->n; i++) t->s[i] = -t->s[i];
 done:
   return status;
 }
 
 static void lower_damping(state *t, double gain) {
-  if (gain > 0.9)
+  if (fabs(gain - 1) < 0.002)
+    t->nu *= 1e-4;
+  else if (gain > 0.9)
     t->nu *= 0.01;
   else if (gain > 0.75)
     t->nu *= 0.1;
@@ -102,6 +127,7 @@ static fs_status state_create(fs_context *ctx, const fs_objective *objective, st
   t->n = objective->n;
   t->growth = 2;
   t->solver = objective->solver;
+  t->memory.n = 3 * n;
   t->hessian = *objective->pattern;
   t->hessian.value = NULL;
   FS_ALLOC(ctx, t->trial, 3 * n);
@@ -129,34 +155,151 @@ static void state_free(fs_context *ctx, state *t) {
   fs_release(ctx, t->v);
   fs_release(ctx, t->w);
   fs_release(ctx, t->hessian.value);
+  fs_memory_release(ctx, &t->memory);
+}
+
+/* Below this, relative to f, decreases drown in rounding and the gradient alone tells whether a step is good. */
+static const double rounding = 1e-13;
+
+/* f and the gradient at x + s; *gain = what the step brings by what was predicted. */
+static fs_status try_step(const fs_objective *o, state *t, double predicted, double *gain) {
+  fs_status status = FS_OK;
+  for (size_t i = 0; i < 3 * (size_t)t->n; i++) t->trial[i] = t->x[i] + t->s[i];
+  FS_TRY(o->gradient(o->self, t->trial, &t->f_trial, t->g_trial));
+  *gain = isfinite(t->f_trial) && t->f_trial < t->f ? (t->f - t->f_trial) / predicted : -1;
+  if (predicted <= rounding * fabs(t->f) && fabs(t->f_trial - t->f) <= rounding * fabs(t->f) &&
+      norm(t->g_trial, 3 * (size_t)t->n) <= 0.7 * norm(t->g, 3 * (size_t)t->n))
+    *gain = 1;
+done:
+  return status;
+}
+
+/* The trial becomes x. */
+static fs_status accept(fs_context *ctx, state *t, fs_minimise_report *report, double gain, int32_t n_factorisations,
+                        double predicted) {
+  fs_status status = FS_OK;
+  size_t n = 3 * (size_t)t->n;
+  double *g = t->g;
+  FS_TRY(fs_memory_add(ctx, &t->memory, t->s, t->g, t->g_trial));
+  t->g = t->g_trial;
+  t->g_trial = g;
+  memcpy(t->x, t->trial, n * sizeof *t->x);
+  report->value = t->f_trial;
+  report->gradient = norm(t->g, n);
+  t->step = (fs_minimise_step){.number = ++report->n_steps,
+                               .n_factorisations = n_factorisations,
+                               .value = t->f_trial,
+                               .gradient = report->gradient,
+                               .damping = t->nu_factored,
+                               .length = norm(t->s, n),
+                               .gain = gain};
+  t->decrease = t->f - t->f_trial;
+  t->f = t->f_trial;
+  t->predicted = predicted;
+done:
+  return status;
 }
 
 /* Takes steps of growing damping from x until one is accepted. *is_stuck: none is, down to rounding. */
-static fs_status accept_step(fs_context *ctx, const fs_objective *o, state *t, fs_minimise_report *report,
-                             fs_minimise_step *step, double *predicted, bool *is_stuck) {
+static fs_status newton_step(fs_context *ctx, const fs_objective *o, state *t, fs_minimise_report *report,
+                             bool *is_taken, bool *is_stuck) {
   fs_status status = FS_OK;
   size_t n = 3 * (size_t)t->n;
-  *is_stuck = false;
-  step->n_factorisations = 0;
+  int32_t n_factorisations = 0;
+  double gain, predicted, f_unused;
+  *is_taken = *is_stuck = false;
+  FS_TRY(o->hessian(o->self, t->x, &f_unused, t->s, &t->hessian));
+  report->n_hessians++;
+  set_diagonal(t);
+  if (o->normal != NULL) FS_TRY(o->normal(o->self, t->x, t->v));
   while (true) {
-    double f_trial;
-    FS_TRY(find_step(ctx, o, t, report, &step->n_factorisations));
-    *predicted = -0.5 * dot(t->g, t->s, n) + 0.5 * t->nu * weighted_square(t);
-    for (size_t i = 0; i < n; i++) t->trial[i] = t->x[i] + t->s[i];
-    FS_TRY(o->value(o->self, t->trial, &f_trial));
-    step->gain = (t->f - f_trial) / *predicted;
-    if (isfinite(f_trial) && f_trial < t->f && step->gain > 1e-4) {
-      step->value = f_trial;
-      step->damping = t->nu;
-      step->length = sqrt(dot(t->s, t->s, n));
-      break;
-    }
-    if (*predicted <= 1e-13 * fabs(t->f) || step->n_factorisations >= MAX_TRIALS) {
+    FS_TRY(find_step(ctx, o, t, report, &n_factorisations));
+    t->nu_factored = t->nu;
+    predicted = -0.5 * dot(t->g, t->s, n) + 0.5 * t->nu * weighted_square(t);
+    FS_TRY(try_step(o, t, predicted, &gain));
+    if (gain > 1e-4) break;
+    if (predicted <= rounding * fabs(t->f) || n_factorisations >= MAX_TRIALS) {
       *is_stuck = true;
-      break;
+      goto done;
     }
     raise_damping(t);
   }
+  lower_damping(t, gain);
+  FS_TRY(accept(ctx, t, report, gain, n_factorisations, predicted));
+  *is_taken = true;
+done:
+  return status;
+}
+
+/* One step with the factorisation that is there. *is_taken: it was accepted. *is_stuck: there is nothing left to gain. */
+static fs_status quasi_newton_step(fs_context *ctx, const fs_objective *o, state *t, fs_minimise_report *report,
+                                   bool *is_taken, bool *is_stuck) {
+  fs_status status = FS_OK;
+  size_t n = 3 * (size_t)t->n;
+  double alpha[FS_MEMORY_PAIRS], gain, predicted;
+  *is_taken = *is_stuck = false;
+  memcpy(t->s, t->g, n * sizeof *t->s);
+  fs_memory_before(&t->memory, t->s, alpha);
+  FS_TRY(solve(ctx, o, t, t->s, t->s));
+  fs_memory_after(&t->memory, t->s, alpha);
+  for (size_t i = 0; i < n; i++) t->s[i] = -t->s[i];
+  predicted = -0.5 * dot(t->g, t->s, n);
+  if (!(predicted > 0 && (predicted <= worth_going_on * t->predicted || predicted <= rounding * fabs(t->f)))) goto done;
+  FS_TRY(try_step(o, t, predicted, &gain));
+  *is_stuck = gain <= 0.1 && predicted <= rounding * fabs(t->f);
+  if (!(gain > 0.1)) goto done;
+  FS_TRY(accept(ctx, t, report, gain, 0, predicted));
+  *is_taken = true;
+done:
+  return status;
+}
+
+/* Whether the last accepted step was the last one needed. */
+static fs_status is_done(fs_context *ctx, const fs_objective *o, const fs_minimise_options *options, state *t,
+                         double gradient_start, fs_minimise_report *r, bool *done) {
+  fs_status status = FS_OK;
+  size_t n = 3 * (size_t)t->n;
+  *done = true;
+  if (options->monitor != NULL && !options->monitor(options->user, &t->step)) {
+    r->stop = FS_MINIMISE_CANCELLED;
+    return FS_OK;
+  }
+  if (options->gradient_tolerance == 0 && t->predicted <= options->decrease_tolerance * fabs(t->f) &&
+      t->step.gain > 0.5 && t->step.gain < 2) {
+    r->stop = FS_MINIMISE_DECREASE;
+    return FS_OK;
+  }
+  if (r->gradient <= options->gradient_tolerance * gradient_start) { /* how much decrease is left? */
+    FS_TRY(solve(ctx, o, t, t->g, t->s));
+    if (0.5 * dot(t->g, t->s, n) <= options->decrease_tolerance * fabs(t->f)) {
+      r->stop = FS_MINIMISE_GRADIENT;
+      return FS_OK;
+    }
+  }
+  if (t->step.length <= 4 * DBL_EPSILON * norm(t->x, n)) {
+    r->stop = FS_MINIMISE_STEP;
+    return FS_OK;
+  }
+  *done = false;
+done:
+  return status;
+}
+
+/* f and g at the start. */
+static fs_status begin(fs_context *ctx, const fs_objective *o, const fs_minimise_options *options, state *t,
+                       fs_minimise_report *r) {
+  fs_status status = FS_OK;
+  FS_TRY(o->gradient(o->self, t->x, &t->f, t->g));
+  r->value = t->f;
+  r->gradient = norm(t->g, 3 * (size_t)t->n);
+  if (!isfinite(t->f) || !isfinite(r->gradient)) {
+    status = fs_fail(ctx, FS_ERR_NUMERIC, "the functional is not finite at the start");
+    goto done;
+  }
+  t->step = (fs_minimise_step){.value = t->f, .gradient = r->gradient};
+  if (options->monitor != NULL && !options->monitor(options->user, &t->step)) r->stop = FS_MINIMISE_CANCELLED;
+  if (o->normal != NULL && t->is_factored) FS_TRY(o->normal(o->self, t->x, t->v));
+  t->predicted = INFINITY; /* whatever a step with a factorisation from before promises, it is tried */
 done:
   return status;
 }
@@ -164,76 +307,33 @@ done:
 fs_status fs_minimise(fs_context *ctx, const fs_objective *o, const fs_minimise_options *options, double *x,
                       fs_minimise_report *report) {
   fs_status status = FS_OK;
-  state t = {
-      .x = x, .nu = options->damping->nu, .nu_min = options->least_damping, .nu_failed = options->damping->nu_failed};
+  state t = {.x = x,
+             .nu = options->damping->nu,
+             .nu_min = options->least_damping,
+             .nu_failed = options->damping->nu_failed,
+             .is_factored = options->damping->is_factored};
   fs_minimise_report r = {.stop = FS_MINIMISE_ITERATIONS};
-  size_t n = 3 * (size_t)o->n;
   double gradient_start = options->gradient_start;
   FS_TRY(state_create(ctx, o, &t));
-  while (true) {
-    fs_minimise_step step = {.number = r.n_steps + 1};
-    double predicted;
-    bool is_stuck;
-    FS_TRY(o->hessian(o->self, x, &t.f, t.g, &t.hessian));
-    r.n_hessians++;
-    r.value = t.f;
-    r.gradient = sqrt(dot(t.g, t.g, n));
-    if (r.n_steps == 0) {
-      if (gradient_start == 0) gradient_start = r.gradient;
-      if (!isfinite(t.f) || !isfinite(r.gradient)) {
-        status = fs_fail(ctx, FS_ERR_NUMERIC, "the functional is not finite at the start");
-        goto done;
-      }
-      step = (fs_minimise_step){.value = t.f, .gradient = r.gradient};
-      if (options->monitor != NULL && !options->monitor(options->user, &step)) {
-        r.stop = FS_MINIMISE_CANCELLED;
-        break;
-      }
-      step.number = 1;
-    }
+  FS_TRY(begin(ctx, o, options, &t, &r));
+  if (gradient_start == 0) gradient_start = r.gradient;
+  while (r.stop != FS_MINIMISE_CANCELLED && r.n_steps < options->max_iterations) {
+    bool is_over = false, is_taken = false, is_stuck = false;
     if (r.gradient <= DBL_MIN) {
       r.stop = FS_MINIMISE_GRADIENT;
       break;
     }
-    if (r.n_steps >= options->max_iterations) break;
-    set_diagonal(&t);
-    if (o->normal != NULL) FS_TRY(o->normal(o->self, x, t.v));
-    FS_TRY(accept_step(ctx, o, &t, &r, &step, &predicted, &is_stuck));
+    if (t.is_factored)
+      FS_TRY(quasi_newton_step(ctx, o, &t, &r, &is_taken, &is_stuck));
+    else
+      FS_TRY(newton_step(ctx, o, &t, &r, &is_taken, &is_stuck));
+    t.is_factored = is_taken;
     if (is_stuck) {
       r.stop = r.gradient <= options->gradient_tolerance * gradient_start ? FS_MINIMISE_GRADIENT : FS_MINIMISE_DECREASE;
       break;
     }
-    memcpy(x, t.trial, n * sizeof *x);
-    r.n_steps++;
-    lower_damping(&t, step.gain);
-    /* the gradient at the new point decides whether another Hessian is worth its price */
-    FS_TRY(o->gradient(o->self, x, &r.value, t.g_trial));
-    r.gradient = step.gradient = sqrt(dot(t.g_trial, t.g_trial, n));
-    if (options->monitor != NULL && !options->monitor(options->user, &step)) {
-      r.stop = FS_MINIMISE_CANCELLED;
-      break;
-    }
-    if (options->gradient_tolerance == 0 && predicted <= options->decrease_tolerance * fabs(t.f) && step.gain > 0.5 &&
-        step.gain < 2) {
-      r.stop = FS_MINIMISE_DECREASE;
-      break;
-    }
-    bool is_flat = r.gradient <= options->gradient_tolerance * gradient_start;
-    if (is_flat) { /* the decrease that is left, by the factor that is there: is another Hessian worth its price? */
-      FS_TRY(fs_solver_solve(ctx, t.solver, t.g_trial, t.s));
-      if (0.5 * dot(t.g_trial, t.s, n) <= options->decrease_tolerance * fabs(r.value)) {
-        r.stop = FS_MINIMISE_GRADIENT;
-        break;
-      }
-    }
-    if (predicted <= 1e-13 * fabs(t.f) && t.f - r.value < 1e-11 * fabs(t.f)) {
-      r.stop = FS_MINIMISE_DECREASE; /* rounding */
-      break;
-    }
-    if (step.length <= 4 * DBL_EPSILON * sqrt(dot(x, x, n))) {
-      r.stop = FS_MINIMISE_STEP;
-      break;
-    }
+    if (is_taken) FS_TRY(is_done(ctx, o, options, &t, gradient_start, &r, &is_over));
+    if (is_over) break;
   }
 done:
   if (status == FS_ERR_CANCELLED) { /* in the middle of an evaluation: x still is the best point met */
@@ -241,7 +341,7 @@ done:
     status = FS_OK;
   }
   if (status == FS_OK) *report = r;
-  *options->damping = (fs_damping){t.nu, t.nu_failed};
+  *options->damping = (fs_damping){t.nu, t.nu_failed, t.is_factored};
   state_free(ctx, &t);
   return status;
 }

@@ -12,8 +12,8 @@ typedef struct fs_objective {
   const fs_sparse *pattern; /* of the Hessian */
   fs_solver *solver;        /* made for that pattern */
   void *self;
-  fs_status (*value)(void *self, const double *x, double *f);
   fs_status (*gradient)(void *self, const double *x, double *f, double *g);
+  /* The Hessian, or something near to it; f and g are by-products that nobody uses. */
   fs_status (*hessian)(void *self, const double *x, double *f, double *g, fs_sparse *hessian);
   /* A vector v[3 n] to which steps stay orthogonal; NULL: none. The Hessian need only be right on such steps. */
   fs_status (*normal)(void *self, const double *x, double *v);
@@ -35,6 +35,7 @@ typedef struct fs_minimise_step {
 /* The damping that the next step begins with, relative to the diagonal of the Hessian: 1 far from a minimum, 0 near. */
 typedef struct fs_damping {
   double nu, nu_failed; /* nu_failed: memory of damping that did not suffice, 0 at first */
+  bool is_factored; /* the solver holds a factorisation of a similar function from near the start: it is tried first */
 } fs_damping;
 
 typedef struct fs_minimise_options {

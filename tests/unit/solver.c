@@ -7,6 +7,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "optimise/memory.h"
 #include "optimise/minimise.h"
 #include "support.h"
 
@@ -114,9 +115,6 @@ static fs_status rosenbrock(const double *x, int32_t n, double *f, double *g, fs
   return FS_OK;
 }
 enum { GROUPS = 5 };
-static fs_status r_value(void *self, const double *x, double *f) {
-  return (void)self, rosenbrock(x, GROUPS, f, NULL, NULL);
-}
 static fs_status r_gradient(void *self, const double *x, double *f, double *g) {
   return (void)self, rosenbrock(x, GROUPS, f, g, NULL);
 }
@@ -134,9 +132,8 @@ static void test_rosenbrock(void **state) {
   fs_context ctx = test_context();
   fs_sparse *pattern = make_band(&ctx, GROUPS);
   double x[3 * GROUPS], f_start, f_end;
-  fs_objective objective = {
-      .n = GROUPS, .pattern = pattern, .value = r_value, .gradient = r_gradient, .hessian = r_hessian};
-  fs_damping damping = {1, 0};
+  fs_objective objective = {.n = GROUPS, .pattern = pattern, .gradient = r_gradient, .hessian = r_hessian};
+  fs_damping damping = {.nu = 1};
   fs_minimise_options options = {
       .max_iterations = 200, .gradient_tolerance = 1e-10, .decrease_tolerance = 1e-12, .damping = &damping};
   fs_minimise_report report;
@@ -171,12 +168,41 @@ static void test_rosenbrock(void **state) {
   fs_sparse_free(&ctx, pattern);
 }
 
+/* On a quadratic function, steps with exact pairs make B exact on the newest pair, and exact everywhere in the end. */
+static void test_memory(void **state) {
+  enum { N = 5 };
+  fs_context ctx = test_context();
+  fs_memory memory = {.n = N};
+  static const double H[N] = {1, 3, 10, 0.2, 30};
+  double zero[N] = {0}, alpha[FS_MEMORY_PAIRS];
+  (void)state;
+  for (int i = 0; i < N + 6; i++) { /* more pairs than it holds */
+    double s[N] = {0}, y[N], d[N];
+    s[i % N] = 1 + 0.1 * i;
+    for (int k = 0; k < N; k++) d[k] = y[k] = H[k] * s[k];
+    assert_int_equal(fs_memory_add(&ctx, &memory, s, zero, y), FS_OK);
+    fs_memory_before(&memory, d, alpha);
+    fs_memory_after(&memory, d, alpha); /* K the unit matrix */
+    for (int k = 0; k < N; k++) assert_true(fabs(d[k] - s[k]) <= 1e-14);
+  }
+  for (int k = 0; k < N; k++) {
+    double d[N] = {0};
+    d[k] = H[k];
+    fs_memory_before(&memory, d, alpha);
+    fs_memory_after(&memory, d, alpha);
+    for (int j = 0; j < N; j++) assert_true(fabs(d[j] - (j == k)) <= 1e-14);
+  }
+  double s[N] = {1}, y[N] = {-1};
+  int32_t n_pairs = memory.n_pairs;
+  assert_int_equal(fs_memory_add(&ctx, &memory, s, zero, y), FS_OK); /* negative curvature */
+  assert_true(memory.n_pairs < n_pairs || memory.n_pairs == FS_MEMORY_PAIRS - 1);
+  fs_memory_release(&ctx, &memory);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pattern),
-      cmocka_unit_test(test_solve),
-      cmocka_unit_test(test_diagonal),
-      cmocka_unit_test(test_rosenbrock),
+      cmocka_unit_test(test_pattern),    cmocka_unit_test(test_solve),  cmocka_unit_test(test_diagonal),
+      cmocka_unit_test(test_rosenbrock), cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
