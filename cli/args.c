@@ -28,6 +28,7 @@ enum {
   KEY_NET,
   KEY_JSON,
   KEY_SCHEME,
+  KEY_CAPS,
   KEY_COLOUR,
   KEY_LIST,
   KEY_PARAM = 2000 /* + number of a parameter in the list below */
@@ -216,6 +217,15 @@ static void finish(struct argp_state *state, parser *p) {
   if (a->no_refine && a->refine > 0) argp_error(state, "--refine and --no-refine exclude each other");
 }
 
+static int32_t parse_caps(struct argp_state *state, const char *text) {
+  static const char *const names[] = {
+      [FS_CAPS_LINEAR] = "linear", [FS_CAPS_SMOOTH] = "smooth", [FS_CAPS_FULL] = "full"};
+  for (int32_t i = 0; i < (int32_t)(sizeof names / sizeof *names); i++)
+    if (strcmp(names[i], text) == 0) return i;
+  argp_error(state, "--caps %s: choose one of linear, smooth, full", text);
+  return -1;
+}
+
 /* Parameters of one letter are short options too. */
 static int key_of(const parser *p, int32_t i) {
   const char *name = p->name[i].param->name;
@@ -292,6 +302,9 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case KEY_SCHEME:
     a->refiner = text;
     break;
+  case KEY_CAPS:
+    a->caps = parse_caps(state, text);
+    break;
   case KEY_COLOUR:
     p->colour = fs_measure_find(text);
     if (p->colour == NULL) argp_error(state, "--colour %s is unknown; fairsurf --list shows the known measures", text);
@@ -331,6 +344,10 @@ static const struct argp_option fixed_options[] = {
     {"refine", KEY_REFINE, "N", 0, "refine N times at least; without it only where the space needs it", 0},
     {"no-refine", KEY_NO_REFINE, NULL, 0, "refuse a mesh that would need refinement", 0},
     {"scheme", KEY_SCHEME, "NAME", 0, "refine: averaging or catmull-clark", 0},
+    {"caps", KEY_CAPS, "KIND", 0,
+     "inner coefficients of caps: linear (none), smooth, full; default: those of the file, and for fair full ones with "
+     "functionals that lower C in steps",
+     0},
     {NULL, 0, NULL, 0, "Fairing:", 3},
     {"functional", KEY_FUNCTIONAL, "NAME", 0, "what to minimise (default: the first of --list)", 0},
     {"fixed", KEY_FIXED, "FILE", 0, "vertices that stay besides the rim: numbers from 0, one per line", 0},
@@ -360,8 +377,12 @@ void parse_arguments(int argc, char **argv, arguments *a) {
   parser p = {.arguments = a};
   struct argp_option options[N_FIXED_OPTIONS + MAX_NAMES + 2] = {{0}};
   int n = 0;
-  *a = (arguments){
-      .functional = fs_functionals[0], .refiner = "averaging", .max_iterations = 100, .threads = 1, .blas_threads = 1};
+  *a = (arguments){.functional = fs_functionals[0],
+                   .refiner = "averaging",
+                   .max_iterations = 100,
+                   .threads = 1,
+                   .blas_threads = 1,
+                   .caps = -1};
   collect_params(&p);
   for (int i = 0; i < N_FIXED_OPTIONS; i++) options[n++] = fixed_options[i];
   options[n++] = (struct argp_option){.doc = "Parameters (of functionals, refinements, file formats):", .group = 5};

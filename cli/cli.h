@@ -29,6 +29,7 @@ typedef struct arguments {
   const char *fixed, *report; /* files, or NULL */
   bool json, no_refine, quiet, start_triharmonic;
   int32_t refine, nodes, max_iterations, threads, blas_threads;
+  int32_t caps;        /* one of fs_cap_inner, or -1: what suits the functional and the file */
   const char *refiner; /* of the command refine */
   double refiner_param[MAX_PARAM_VALUES];
   const fs_functional *functional;
@@ -40,6 +41,12 @@ void parse_arguments(int argc, char **argv, arguments *arguments);
 
 /* Exit code of a status. */
 int exit_code(fs_status status);
+
+/* The space over a mesh with the caps that the arguments ask for, or that suit. kept: coefficients that the file holds, or
+   NULL; they are for the mesh as it was read, before it was refined. */
+fs_status create_space(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh, const fs_cap_notes *kept,
+                       bool is_refined, fs_space **space);
+void note_lost_caps(fs_context *ctx, const fs_cap_notes *kept); /* by refinement; NULL: nothing */
 
 /* What the command info prints. */
 fs_status print_info(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh, const fs_mesh_notes *notes);

@@ -93,7 +93,7 @@ static void print_text(const arguments *a, const fs_mesh_summary *s, const plan 
   printf("cost: %lld quadrature nodes per evaluation\n", (long long)p->n_nodes);
 }
 
-static void print_json(const fs_mesh_summary *s, const plan *p) {
+static void print_json(const fs_mesh_summary *s, const plan *p, const fs_mesh_notes *notes) {
   printf("{\n  \"vertices\": %d,\n  \"edges\": %d,\n  \"faces\": %d,\n  \"components\": %d,\n", s->n_vertices,
          s->n_edges, s->n_faces, s->n_components);
   printf("  \"boundary_loops\": %d,\n  \"boundary_vertices\": %d,\n  \"genus\": %d,\n", s->n_boundary_loops,
@@ -103,6 +103,9 @@ static void print_json(const fs_mesh_summary *s, const plan *p) {
   print_counts("valence_boundary", s->valence_boundary, true);
   printf("  \"min\": [%.17g, %.17g, %.17g],\n  \"max\": [%.17g, %.17g, %.17g],\n", s->min.x, s->min.y, s->min.z,
          s->max.x, s->max.y, s->max.z);
+  if (notes->caps != NULL)
+    printf("  \"caps\": {\"caps\": %d, \"inner_coefficients\": %d},\n", notes->caps->n_caps,
+           notes->caps->n_coefficients);
   printf("  \"space\": {\"possible\": %s, \"refinements\": %d, \"vertices\": %d, \"faces\": %d, \"squares\": %d, "
          "\"caps\": %d, "
          "\"free\": %d, \"quadrature_nodes\": %lld, \"note\": \"",
@@ -123,16 +126,19 @@ static void print_notes(const fs_mesh *mesh, const fs_mesh_notes *notes) {
   if (notes->functional != NULL) printf("minimises: %s\n", notes->functional);
   if (notes->n_refinements > 0) printf("refined: %d times before\n", notes->n_refinements);
   if (notes->fixed != NULL) printf("marks: %d fixed vertices\n", n_fixed);
+  if (notes->caps != NULL)
+    printf("caps: %d with %d inner coefficients\n", notes->caps->n_caps, notes->caps->n_coefficients);
 }
 
 fs_status print_info(fs_context *ctx, const arguments *a, const fs_mesh *mesh, const fs_mesh_notes *notes) {
   fs_mesh_summary summary;
   plan p;
   fs_status status = fs_mesh_summarise(ctx, mesh, &summary);
+  if (status == FS_OK && notes->caps != NULL) status = fs_space_check_caps(ctx, mesh, notes->caps);
   if (status == FS_OK) status = make_plan(ctx, mesh, a->refine, &p);
   if (status != FS_OK) return status;
   if (a->json) {
-    print_json(&summary, &p);
+    print_json(&summary, &p, notes);
   } else {
     print_text(a, &summary, &p);
     print_notes(mesh, notes);

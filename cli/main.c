@@ -65,6 +65,7 @@ typedef struct job {
   fs_surface *surface;
   bool *fixed;
   fs_vec3 *c;
+  fs_cap_notes *caps; /* what c holds behind the vertices, or NULL */
   fs_fair_report report;
   timings seconds;
   char made_with[200];
@@ -98,7 +99,7 @@ static fs_status make_space(job *j) {
   }
   TRY(fs_space_prepare(j->ctx, j->mesh, a->refine, j->step, &j->n_steps));
   j->fine = j->n_steps > 0 ? j->step[j->n_steps - 1]->mesh : j->mesh;
-  TRY(fs_space_create(j->ctx, j->fine, &j->space));
+  TRY(create_space(j->ctx, a, j->fine, j->notes.caps, j->n_steps > 0, &j->space));
   j->c = malloc((size_t)j->space->n_dofs * sizeof *j->c);
   j->fixed = calloc((size_t)j->space->n_dofs, sizeof *j->fixed);
   if (j->c == NULL || j->fixed == NULL) return no_memory(j->ctx);
@@ -154,6 +155,7 @@ static fs_status make_fair(job *j) {
   fs_status status;
   TRY(fs_space_rim(j->ctx, j->fine, j->space, j->fixed));
   TRY(add_marks(j));
+  fs_space_fix_caps(j->space, j->fixed);
   status = fs_fair(j->ctx, j->space, &options, j->c, &j->report);
   if (is_shown) fprintf(stderr, "\n");
   if (status == FS_OK && j->report.n_free == 0) print_note(NULL, "no vertex is free: the surface stays as it is");
@@ -165,6 +167,7 @@ static fs_status write_outputs(job *j) {
   const arguments *a = j->arguments;
   TRY(fs_mesh_copy(j->ctx, j->fine, &j->control));
   memcpy(j->control->position, j->c, (size_t)j->control->n_vertices * sizeof *j->c);
+  TRY(fs_space_keep_caps(j->ctx, j->control, j->space, j->c, &j->caps));
   TRY(fs_surface_create(j->ctx, j->space, j->c, &j->surface));
   for (int32_t i = 0; i < a->n_outputs; i++) {
     const output_request *o = &a->output[i];
@@ -174,6 +177,7 @@ static fs_status write_outputs(job *j) {
                       .surface = is_surface ? j->surface : NULL,
                       .colour = o->colour,
                       .fixed = (const uint8_t *)j->fixed,
+                      .caps = j->caps,
                       .made_with = j->made_with,
                       .functional = j->functional,
                       .n_refinements = j->notes.n_refinements + j->n_steps};
@@ -186,6 +190,7 @@ static fs_status run_refine(job *j) {
   const arguments *a = j->arguments;
   int32_t n = a->refine > 0 ? a->refine : 1;
   const fs_mesh *mesh = j->mesh;
+  note_lost_caps(j->ctx, j->notes.caps);
   for (; j->n_steps < n; j->n_steps++) {
     TRY(fs_mesh_refine(j->ctx, mesh, a->refiner, a->refiner_param, &j->step[j->n_steps]));
     mesh = j->step[j->n_steps]->mesh;
@@ -247,6 +252,7 @@ static fs_status run(job *j) {
 
 static void job_free(job *j) {
   fs_surface_free(j->ctx, j->surface);
+  fs_cap_notes_free(j->ctx, j->caps);
   fs_space_free(j->ctx, j->space);
   for (int32_t s = 0; s < j->n_steps; s++) fs_refinement_free(j->ctx, j->step[s]);
   fs_mesh_free(j->ctx, j->control);

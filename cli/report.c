@@ -55,7 +55,8 @@ static void put_report(FILE *file, const arguments *a, const fs_fair_report *r, 
   fprintf(file, "{\n  \"version\": \"%s\",\n  \"mesh\": ", fs_version());
   put_string(file, a->mesh);
   fprintf(file, ",\n  \"functional\": \"%s\",\n", r->functional->name);
-  fprintf(file, "  \"free\": %d,\n  \"squares\": %d,\n  \"caps\": %d,\n  ", r->n_free, r->n_squares, r->n_caps);
+  fprintf(file, "  \"free\": %d,\n  \"free_inner\": %d,\n  \"squares\": %d,\n  \"caps\": %d,\n  ", r->n_free,
+          r->n_free_inner, r->n_squares, r->n_caps);
   put_number(file, "c", r->c, ",\n");
   put_energy(file, "start", &r->start);
   put_energy(file, "end", &r->end);
@@ -122,7 +123,9 @@ static void print_energy(FILE *file, const char *name, const fs_energy *e) {
 }
 
 void print_report(FILE *file, const fs_fair_report *r, const timings *t) {
-  fprintf(file, "%d free vertices, %d squares, %d caps\n", r->n_free, r->n_squares, r->n_caps);
+  fprintf(file, "%d free vertices, %d squares, %d caps", r->n_free - r->n_free_inner, r->n_squares, r->n_caps);
+  if (r->n_free_inner > 0) fprintf(file, " with %d free inner coefficients", r->n_free_inner);
+  fputc('\n', file);
   print_energy(file, "start", &r->start);
   print_energy(file, "end", &r->end);
   fprintf(file, "%d steps, %d Hessians, %d factorisations, stopped by %s, %.2f s of %.2f s\n", r->n_steps,

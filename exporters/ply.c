@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Single role: Stanford PLY, binary little-endian or ascii. A control net keeps its polygons and its doubles; a surface
-   becomes triangles with doubles for positions and floats for the exact normals at their corners, and for the values of the
+/* Single role: Stanford PLY, binary little-endian or ascii. A control net keeps its polygons, its doubles and the inner
+   coefficients of its caps; a surface becomes triangles with doubles for positions and floats for the exact normals at their corners, and for the values of the
    measure to colour by. */
 #include "writer.h"
 #include "base/base.h"
 #include "measured.h"
+#include "mesh/ply.h"
 
 #include <float.h>
 #include <math.h>
@@ -65,8 +66,8 @@ static void write_measure_header(fs_writer *writer, const fs_measure *measure) {
 }
 
 /* normals: whether the vertices have them. Sizes of faces are bytes where they fit, as most readers expect. */
-static void write_header(ply *p, const fs_model *model, int32_t n_vertices, bool normals, int32_t n_faces,
-                         bool is_byte) {
+static void write_header(ply *p, const fs_model *model, int32_t n_vertices, bool normals, int32_t n_faces, bool is_byte,
+                         int32_t n_caps) {
   fs_writer *writer = &p->writer;
   fs_writer_printf(writer, "ply\nformat %s 1.0\ncomment ", p->is_ascii ? "ascii" : "binary_little_endian");
   fs_writer_line_text(writer, model->made_with != NULL ? model->made_with : "fairsurf");
@@ -78,15 +79,38 @@ static void write_header(ply *p, const fs_model *model, int32_t n_vertices, bool
   fs_writer_text(writer, "property double x\nproperty double y\nproperty double z\n");
   if (normals) fs_writer_text(writer, "property float nx\nproperty float ny\nproperty float nz\n");
   if (normals && model->colour != NULL) write_measure_header(writer, model->colour);
-  fs_writer_printf(writer, "element face %d\nproperty list %s int vertex_indices\nend_header\n", n_faces,
+  fs_writer_printf(writer, "element face %d\nproperty list %s int vertex_indices\n", n_faces,
                    is_byte ? "uchar" : "int");
+  if (n_caps > 0)
+    fs_writer_printf(writer,
+                     "element " FS_PLY_CAP " %d\nproperty int vertex\nproperty int spoke\nproperty int valence\n"
+                     "property int basis\nproperty list int double coefficients\n",
+                     n_caps);
+  fs_writer_text(writer, "end_header\n");
+}
+
+static void write_caps(ply *p, const fs_cap_notes *notes) {
+  for (int32_t i = 0; i < notes->n_caps; i++) {
+    const fs_cap_note *cap = &notes->cap[i];
+    const int32_t number[] = {cap->vertex, cap->spoke, cap->valence, notes->basis, 3 * cap->n};
+    for (size_t k = 0; k < sizeof number / sizeof *number; k++) {
+      if (k > 0) separate(p, " ");
+      write_int(p, number[k]);
+    }
+    for (int32_t c = cap->first; c < cap->first + cap->n; c++) {
+      separate(p, " ");
+      write_position(p, notes->coefficient[c]);
+    }
+    separate(p, "\n");
+  }
 }
 
 static void write_net(ply *p, const fs_model *model) {
   const fs_mesh *mesh = model->control;
   bool is_byte = true;
   for (int32_t f = 0; f < mesh->n_faces; f++) is_byte = is_byte && fs_mesh_face_size(mesh, f) <= 255;
-  write_header(p, model, mesh->n_vertices, false, mesh->n_faces, is_byte);
+  write_header(p, model, mesh->n_vertices, false, mesh->n_faces, is_byte,
+               model->caps != NULL ? model->caps->n_caps : 0);
   for (int32_t v = 0; v < mesh->n_vertices; v++) {
     write_position(p, mesh->position[v]);
     separate(p, "\n");
@@ -99,11 +123,12 @@ static void write_net(ply *p, const fs_model *model) {
     }
     separate(p, "\n");
   }
+  if (model->caps != NULL) write_caps(p, model->caps);
 }
 
 /* value[n_vertices] of the measure, or NULL. Where the measure has none, or one too large, the file says 0: readers know no NaN. */
 static void write_triangles(ply *p, const fs_model *model, const fs_triangles *t, const double *value) {
-  write_header(p, model, t->n_vertices, true, t->n_triangles, true);
+  write_header(p, model, t->n_vertices, true, t->n_triangles, true, 0);
   for (int32_t v = 0; v < t->n_vertices; v++) {
     write_position(p, t->position[v]);
     separate(p, " ");
@@ -153,8 +178,8 @@ done:
 const fs_exporter fs_exporter_ply = {
     .name = "ply",
     .extension = "ply",
-    .summary =
-        "Stanford PLY: the control net with its polygons, or the surface as triangles with normals and a measure",
+    .summary = "Stanford PLY: the control net with its polygons and caps, or the surface as triangles with normals and "
+               "a measure",
     .params = (const fs_param[]){FS_PARAM_STEPS,
                                  {.name = "format",
                                   .summary = "binary: little-endian",

@@ -184,6 +184,12 @@ done:
   return status;
 }
 
+static int32_t count_free_inner(const fs_problem *p) {
+  int32_t n = 0;
+  for (int32_t d = p->space->n_vertices; d < p->space->n_dofs; d++) n += p->unknown[d] != FS_NONE;
+  return n;
+}
+
 fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options *options, fs_vec3 *dofs,
                   fs_fair_report *report) {
   fs_status status = FS_OK;
@@ -193,6 +199,7 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
   FS_TRY(fs_setup_create(ctx, space, options, functional_of(options), dofs, &c.setup));
   r.functional = c.setup.functional;
   r.n_free = c.setup.problem->n_free;
+  r.n_free_inner = count_free_inner(c.setup.problem);
   FS_ALLOC(ctx, c.g, 3 * (size_t)r.n_free);
   FS_ALLOC(ctx, c.x, 3 * (size_t)r.n_free);
   FS_TRY(fs_setup_measure(&c.setup, c.g, &r.start));

@@ -62,7 +62,10 @@ static fs_status read_element(fs_text *text, ply_header *header, int32_t propert
   fs_status status = fs_text_integer(text, next_word(text), &element->count);
   if (status != FS_OK) return status;
   if (element->count < 0) return fs_text_fail(text, "there are %d of %s", element->count, fs_word_quote(name, quote));
-  element->kind = fs_word_is(name, "vertex") ? PLY_VERTEX : fs_word_is(name, "face") ? PLY_FACE : PLY_OTHER;
+  element->kind = fs_word_is(name, "vertex")     ? PLY_VERTEX
+                  : fs_word_is(name, "face")     ? PLY_FACE
+                  : fs_word_is(name, FS_PLY_CAP) ? PLY_CAP
+                                                 : PLY_OTHER;
   element->property_start = property_start;
   if (element->kind != PLY_OTHER) {
     for (int32_t i = 0; i < header->n_elements; i++)
@@ -74,11 +77,19 @@ static fs_status read_element(fs_text *text, ply_header *header, int32_t propert
   return FS_OK;
 }
 
+static ply_role find_cap_role(bool is_list, fs_word name) {
+  static const char *const names[] = {"vertex", "spoke", "valence", "basis"};
+  for (int32_t i = 0; i < 4 && !is_list; i++)
+    if (fs_word_is(name, names[i])) return (ply_role)(PLY_CAP_VERTEX + i);
+  return is_list && fs_word_is(name, "coefficients") ? PLY_CAP_COEFFICIENTS : PLY_SKIPPED;
+}
+
 static ply_role find_role(ply_kind kind, bool is_list, fs_word name) {
   if (kind == PLY_VERTEX && !is_list && name.size == 1 && *name.at >= 'x' && *name.at <= 'z')
     return (ply_role)(PLY_X + (*name.at - 'x'));
   if (kind == PLY_FACE && is_list && (fs_word_is(name, "vertex_indices") || fs_word_is(name, "vertex_index")))
     return PLY_CORNERS;
+  if (kind == PLY_CAP) return find_cap_role(is_list, name);
   return PLY_SKIPPED;
 }
 
@@ -136,6 +147,10 @@ static fs_status check_roles(fs_context *ctx, const ply_header *header) {
   if (header->count[PLY_VERTEX] == 0 || header->count[PLY_FACE] == 0)
     return fs_fail(ctx, FS_ERR_FORMAT, "%d vertices and %d faces are not a mesh", header->count[PLY_VERTEX],
                    header->count[PLY_FACE]);
+  for (int32_t role = PLY_CAP_VERTEX; role <= PLY_CAP_COEFFICIENTS; role++)
+    if (header->count[PLY_CAP] > 0 && !has[role])
+      return fs_fail(ctx, FS_ERR_FORMAT,
+                     "the element " FS_PLY_CAP " needs vertex, spoke, valence, basis and a list coefficients");
   return FS_OK;
 }
 

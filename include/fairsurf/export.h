@@ -17,8 +17,10 @@ typedef struct fs_model {
   const fs_mesh *control; /* the control net, with the positions to write */
   const fs_surface *surface;
   const fs_measure *colour;
-  const uint8_t *fixed;   /* [n_vertices] of control: 1 where fairing kept the vertex */
-  const char *made_with;  /* one line for comments: version, functional, parameters; or NULL */
+  const uint8_t *fixed; /* [n_vertices] of control: 1 where fairing kept the vertex */
+  const fs_cap_notes
+      *caps;             /* inner coefficients that make the surface together with control; NULL: its caps are linear */
+  const char *made_with; /* one line for comments: version, functional, parameters; or NULL */
   const char *functional; /* that the control net minimises, with its parameters; NULL: it was not faired */
   int32_t n_refinements;  /* from the mesh of the user to the control net */
 } fs_model;

@@ -113,6 +113,7 @@ typedef struct fs_fair_report {
   const fs_functional *functional; /* the one used, which may be when_nothing_is_fixed of the one asked for */
   fs_stop stop;
   int32_t n_free, n_squares, n_caps; /* free dofs (a dof is a point), elements, special vertices */
+  int32_t n_free_inner;              /* those of n_free that are inner coefficients of caps */
   int32_t n_steps, n_hessians, n_factorisations;
   double c; /* weight of Q in F; 0 where the functional has no such term */
   fs_energy start, end;

@@ -23,6 +23,11 @@ struct refusal {
 #define PLY_START "ply\nformat ascii 1.0\n"
 #define PLY_XYZ "property float x\nproperty float y\nproperty float z\n"
 #define PLY_LIST "property list uchar int vertex_indices\nend_header\n"
+#define PLY_CAP_INTS "property int vertex\nproperty int spoke\nproperty int valence\nproperty int basis\n"
+#define PLY_CAPS                                                                                          \
+  PLY_START "element vertex 3\n" PLY_XYZ "element face 1\nproperty list uchar int vertex_indices\n"       \
+            "element fairsurf_cap 2\n" PLY_CAP_INTS "property list int double coefficients\nend_header\n" \
+            "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
 #define PLY_3_1 PLY_START "element vertex 3\n" PLY_XYZ "element face 1\n" PLY_LIST
 
 static const struct refusal refusals[] = {
@@ -134,6 +139,19 @@ static const struct refusal refusals[] = {
     {"ply", PLY_3_1 "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 13: face 0 uses vertex 3, but there are only 3", 0},
     {"ply", PLY_3_1 "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 13: face 0 uses vertex -1, but there are only 3", 0},
     {"ply", PLY_3_1 "0 0 0\n1 0 0\n0 1 0\n3 0 1 1\n", "face 0 repeats vertex 1", FS_ERR_TOPOLOGY},
+    {"ply", PLY_START "element vertex 3\n" PLY_XYZ "element fairsurf_cap 1\n" PLY_CAP_INTS "element face 1\n" PLY_LIST,
+     "the element fairsurf_cap needs vertex, spoke, valence, basis and a list coefficients", 0},
+    {"ply", PLY_CAPS "0 1 3 1 3 0 0 0\n0 1 3 2 3 0 0 0\n",
+     "line 21: cap 1 belongs to version 2 of the functions, those before to 1", 0},
+    {"ply", PLY_CAPS "0 1 3 1 4 0 0 0 0\n0 1 3 1 0\n",
+     "line 20: cap 0 has 4 numbers, but its coefficients take three each", 0},
+    {"ply", PLY_CAPS "0 1 3 1 3 0 nan 0\n0 1 3 1 0\n", "line 20: 'nan' is not a finite number", 0},
+    {"ply", PLY_CAPS "0 1.5 3 1 3 0 1 0\n0 1 3 1 0\n", "line 20: 1.5 of cap 0 is no whole number of 32 bits", 0},
+    {"ply", PLY_CAPS "0 1 3e10 1 3 0 1 0\n0 1 3 1 0\n", "line 20: 3e+10 of cap 0 is no whole number of 32 bits",
+     0},
+    {"ply", PLY_CAPS "0 1 3 1 300 0 0 0\n0 1 3 1 0\n",
+     "line 20: a list of 300 values does not fit into the 17 bytes that follow", 0},
+    {"ply", PLY_CAPS "0 1 3 1 6 0 0 0 0 0 0\n", "line 21: the file ends too early", 0},
 };
 
 static void assert_refused(const char *extension, const char *bytes, size_t size, fs_status status,
