@@ -31,6 +31,8 @@ enum {
   KEY_CAPS,
   KEY_COLOUR,
   KEY_LIST,
+  KEY_CONSTRUCTION,
+  KEY_NORMALS,
   KEY_PARAM = 2000 /* + number of a parameter in the list below */
 };
 
@@ -85,6 +87,8 @@ static void add_params(parser *p, const char *owner, const fs_param *params) {
 static void collect_params(parser *p) {
   for (int i = 0; fs_functionals[i] != NULL; i++) add_params(p, fs_functionals[i]->name, fs_functionals[i]->params);
   for (int i = 0; fs_refiners[i] != NULL; i++) add_params(p, fs_refiners[i]->name, fs_refiners[i]->params);
+  for (int i = 0; fs_constructions[i] != NULL; i++)
+    add_params(p, fs_constructions[i]->name, fs_constructions[i]->params);
   for (int i = 0; fs_exporters[i] != NULL; i++) add_params(p, fs_exporters[i]->name, fs_exporters[i]->params);
 }
 
@@ -161,6 +165,9 @@ static void print_list(void) {
     printf("  %-20s %s\n", fs_patch_rules[i]->name, fs_patch_rules[i]->summary);
   printf("refinements:\n");
   for (int i = 0; fs_refiners[i] != NULL; i++) printf("  %-20s %s\n", fs_refiners[i]->name, fs_refiners[i]->summary);
+  printf("constructions:\n");
+  for (int i = 0; fs_constructions[i] != NULL; i++)
+    printf("  %-20s %s\n", fs_constructions[i]->name, fs_constructions[i]->summary);
   printf("readers:\n");
   for (int i = 0; fs_readers[i] != NULL; i++) printf("  .%-19s %s\n", fs_readers[i]->extension, fs_readers[i]->summary);
   printf("exporters:\n");
@@ -174,7 +181,11 @@ static command command_of(const char *text) {
   static const struct {
     const char *name;
     command command;
-  } known[] = {{"info", COMMAND_INFO}, {"refine", COMMAND_REFINE}, {"fair", COMMAND_FAIR}, {"export", COMMAND_EXPORT}};
+  } known[] = {{"info", COMMAND_INFO},
+               {"refine", COMMAND_REFINE},
+               {"fair", COMMAND_FAIR},
+               {"export", COMMAND_EXPORT},
+               {"patch", COMMAND_PATCH}};
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
     if (strcmp(known[i].name, text) == 0) return known[i].command;
   return COMMAND_NONE;
@@ -202,6 +213,7 @@ static void finish_outputs(struct argp_state *state, parser *p) {
     fill_params(state, p, o->exporter->params, i, o->param);
   }
   fill_params(state, p, a->functional->params, p->n_events, a->functional_param);
+  fill_params(state, p, a->construction->params, p->n_events, a->construction_param);
   for (int i = 0; fs_refiners[i] != NULL; i++)
     if (strcmp(fs_refiners[i]->name, a->refiner) == 0)
       fill_params(state, p, fs_refiners[i]->params, p->n_events, a->refiner_param);
@@ -209,10 +221,11 @@ static void finish_outputs(struct argp_state *state, parser *p) {
 
 static void finish(struct argp_state *state, parser *p) {
   arguments *a = p->arguments;
-  if (a->command == COMMAND_NONE) argp_error(state, "a command is needed: info, refine, fair or export");
+  if (a->command == COMMAND_NONE) argp_error(state, "a command is needed: info, refine, fair, export or patch");
   if (a->mesh == NULL) argp_error(state, "a mesh is needed");
   finish_outputs(state, p);
   if (a->command == COMMAND_EXPORT && a->n_outputs == 0) argp_error(state, "export needs an output: -o FILE");
+  if (a->command == COMMAND_PATCH && a->n_outputs == 0) argp_error(state, "patch needs an output: -o FILE");
   if (a->command == COMMAND_REFINE && a->n_outputs == 0) argp_error(state, "refine needs an output: -o FILE");
   if (a->no_refine && a->refine > 0) argp_error(state, "--refine and --no-refine exclude each other");
 }
@@ -253,6 +266,14 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case KEY_LIST:
     print_list();
     exit(0);
+  case KEY_CONSTRUCTION:
+    a->construction = fs_construction_find(text);
+    if (a->construction == NULL)
+      argp_error(state, "--construction %s is unknown; fairsurf --list shows the known ones", text);
+    break;
+  case KEY_NORMALS:
+    a->normals = text;
+    break;
   case KEY_FIXED:
     a->fixed = text;
     break;
@@ -314,7 +335,7 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     if (state->arg_num == 0) {
       a->command = command_of(text);
       if (a->command == COMMAND_NONE)
-        argp_error(state, "unknown command %s: info, refine, fair and export are known", text);
+        argp_error(state, "unknown command %s: info, refine, fair, export and patch are known", text);
     } else if (state->arg_num == 1) {
       a->mesh = text;
     } else {
@@ -356,8 +377,11 @@ static const struct argp_option fixed_options[] = {
     {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100); 0 only measures", 0},
     {"threads", KEY_THREADS, "N", 0, "threads (1)", 0},
     {"blas-threads", KEY_BLAS_THREADS, "N", 0, "threads of the linear algebra (1)", 0},
+    {NULL, 0, NULL, 0, "Patches:", 4},
+    {"construction", KEY_CONSTRUCTION, "NAME", 0, "how patch makes the surface (default: the first of --list)", 0},
+    {"normals", KEY_NORMALS, "FILE", 0, "patch: a normal per line, x y z, in the order of the vertices", 0},
     {NULL, 0, NULL, 0, "About:", 9},
-    {"list", KEY_LIST, NULL, 0, "list functionals, rules, refinements, formats, measures", 0},
+    {"list", KEY_LIST, NULL, 0, "list functionals, rules, refinements, constructions, formats, measures", 0},
     {"version", 'V', NULL, 0, "print the version and the BLAS in use", 0},
 };
 enum { N_FIXED_OPTIONS = sizeof fixed_options / sizeof fixed_options[0] };
@@ -369,7 +393,8 @@ void parse_arguments(int argc, char **argv, arguments *a) {
       "  info MESH     counts, valences, and what a space over the mesh would be made of\n"
       "  refine MESH   one refinement step of the mesh\n"
       "  fair MESH     move the free vertices to the fairest surface, write it\n"
-      "  export MESH   write the surface as it is\n\n"
+      "  export MESH   write the surface as it is\n"
+      "  patch MESH    write a surface through the vertices, made without fairing\n\n"
       "Options of a file format hold for the -o that follow them; where none came before an -o, the first one on the "
       "line "
       "holds. Exit codes: 0 done, 1 the input is refused, 2 usage, 3 numeric failure, 4 files, 130 cancelled (the best "
@@ -378,6 +403,7 @@ void parse_arguments(int argc, char **argv, arguments *a) {
   struct argp_option options[N_FIXED_OPTIONS + MAX_NAMES + 2] = {{0}};
   int n = 0;
   *a = (arguments){.functional = fs_functionals[0],
+                   .construction = fs_constructions[0],
                    .refiner = "averaging",
                    .max_iterations = 100,
                    .threads = 1,
@@ -385,7 +411,8 @@ void parse_arguments(int argc, char **argv, arguments *a) {
                    .caps = -1};
   collect_params(&p);
   for (int i = 0; i < N_FIXED_OPTIONS; i++) options[n++] = fixed_options[i];
-  options[n++] = (struct argp_option){.doc = "Parameters (of functionals, refinements, file formats):", .group = 5};
+  options[n++] =
+      (struct argp_option){.doc = "Parameters (of functionals, refinements, constructions, file formats):", .group = 5};
   for (int32_t i = 0; i < p.n_names; i++) {
     options[n++] =
         (struct argp_option){.name = p.name[i].param->name, .key = key_of(&p, i), .arg = "VALUE", .doc = p.name[i].doc};

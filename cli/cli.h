@@ -9,7 +9,14 @@
 enum { EXIT_REFUSED = 1, EXIT_USAGE = 2, EXIT_NUMERIC = 3, EXIT_FILE = 4, EXIT_CANCELLED = 130 };
 enum { MAX_OUTPUTS = 64, MAX_PARAM_VALUES = 24 };
 
-typedef enum command { COMMAND_NONE, COMMAND_INFO, COMMAND_REFINE, COMMAND_FAIR, COMMAND_EXPORT } command;
+typedef enum command {
+  COMMAND_NONE,
+  COMMAND_INFO,
+  COMMAND_REFINE,
+  COMMAND_FAIR,
+  COMMAND_EXPORT,
+  COMMAND_PATCH
+} command;
 
 /* One -o, with the settings that hold for it. */
 typedef struct output_request {
@@ -34,6 +41,9 @@ typedef struct arguments {
   double refiner_param[MAX_PARAM_VALUES];
   const fs_functional *functional;
   double functional_param[MAX_PARAM_VALUES];
+  const fs_construction *construction; /* of the command patch */
+  double construction_param[MAX_PARAM_VALUES];
+  const char *normals; /* file, or NULL */
 } arguments;
 
 /* Fills the arguments or leaves the program: 0 after --help and --version, 2 with a sentence where they are wrong. */
@@ -50,6 +60,9 @@ void note_lost_caps(fs_context *ctx, const fs_cap_notes *kept); /* by refinement
 
 /* What the command info prints. */
 fs_status print_info(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh, const fs_mesh_notes *notes);
+
+/* The command patch. */
+fs_status run_patch(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh);
 
 /* marked[n_vertices] from a file of marks: one vertex number per line, counted from 0, alone or followed by "fixed" or
    "free"; # starts a comment. */

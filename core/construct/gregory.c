@@ -160,7 +160,7 @@ static fs_status build(fs_context *ctx, const fs_construction_input *input, cons
 }
 
 static const char *const rules[] = {"arc", "pn", "wm", NULL};
-static const fs_param params[] = {{"edge", "rule for the cubics over edges", FS_EDGE_ARC, 0, 2, rules}, {0}};
+static const fs_param params[] = {{"edge-rule", "rule for the cubics over edges", FS_EDGE_ARC, 0, 2, rules}, {0}};
 
 const fs_construction fs_construction_gregory = {
     "gregory",
