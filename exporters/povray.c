@@ -30,7 +30,7 @@ static int32_t automatic_steps(size_t n_pieces) {
 /* Patches may be divided while one step at least is left for the pieces. */
 static int32_t most_divisions(int32_t steps, int32_t n_patches) {
   if (steps > 0) return steps - 1 < 5 ? steps - 1 : 5;
-  return n_patches <= 100 ? 5 : n_patches <= 2000 ? 3 : 2;
+  return n_patches <= 24 ? 5 : n_patches <= 2000 ? 3 : 2;
 }
 
 static fs_status check(fs_context *ctx, const fs_model *model, const double *param) {
