@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Holds the sources to the order of the rooms in core/meson.build: check_layering.py [ROOT].
 
-A file of a room includes headers of its own room and of the rooms before it only. Exporters may use all of core but the
-files, which only their table exporters.c knows; the command line, the samples and the benchmarks only include/. Prints every include that breaks this and exits with 1.
+A file of a room includes headers of its own room and of the rooms before it only; its public headers are ROOM.h and
+ROOM_part.h of include/fairsurf/. Exporters may use all of core but the files, which only their table exporters.c knows; the
+command line, the samples and the benchmarks only include/. Prints every include that breaks this and exits with 1.
 """
 import pathlib
 import re
@@ -31,7 +32,7 @@ def includes(path):
         match = INCLUDE.match(line)
         if match:
             _, public, folder, file = match.groups()
-            yield number, line.strip(), pathlib.Path(file).stem if public else folder, bool(public)
+            yield number, line.strip(), pathlib.Path(file).stem.split("_")[0] if public else folder, bool(public)
 
 
 def check(root):
@@ -57,9 +58,9 @@ def check(root):
             found.append(f"core/meson.build: there is no folder core/{room}")
         for path in sources(root / "core" / room):
             check_room(path, room, allowed)
-        header = root / "include" / "fairsurf" / f"{room}.h"
-        if header.exists():
-            check_room(header, f"{room}.h", allowed)
+        for header in sources(root / "include" / "fairsurf"):
+            if header.stem.split("_")[0] == room:
+                check_room(header, header.name, allowed)
     strangers = {path.name for path in (root / "core").iterdir() if path.is_dir()} - set(rooms)
     found += [f"core/{name}: not in the list of rooms" for name in sorted(strangers)]
     check_outside(root, rooms, complain)
