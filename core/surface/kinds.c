@@ -11,4 +11,6 @@ const fs_patch_kind_info fs_patch_kinds[FS_N_PATCH_KINDS] = {
                                fs_gregory_quad_numbers, fs_gregory_quad_jet},
     [FS_PATCH_GREGORY_TRIANGLE] = {"gregory-triangle", "triangle of degree 4 with rational inner points", 3, 1,
                                    fs_gregory_triangle_numbers, fs_gregory_triangle_jet},
+    [FS_PATCH_STACHO_TRIANGLE] = {"stacho-triangle", "triangle of degree 5 to 7 with rational corrections at its sides",
+                                  3, 3, fs_stacho_triangle_numbers, fs_stacho_triangle_jet},
 };

@@ -35,5 +35,7 @@ size_t fs_gregory_quad_numbers(const fs_patch *patch);
 void fs_gregory_quad_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x);
 size_t fs_gregory_triangle_numbers(const fs_patch *patch);
 void fs_gregory_triangle_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x);
+size_t fs_stacho_triangle_numbers(const fs_patch *patch);
+void fs_stacho_triangle_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x);
 
 #endif

@@ -11,6 +11,7 @@
 #include <fairsurf/fair.h>
 #include <fairsurf/surface.h>
 #include <fairsurf/construct.h>
+#include <fairsurf/construct_stacho.h>
 #include <fairsurf/analyse.h>
 #include <fairsurf/export.h>
 #include <fairsurf/file.h>

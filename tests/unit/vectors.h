@@ -56,13 +56,18 @@ static inline void vectors_points(const cJSON *object, const char *name, int n, 
 }
 
 /* The difference of n numbers is at most tolerance times the largest of them, or times 1. */
-static inline void vectors_compare(const cJSON *object, const char *name, int n, const double *ours, double tolerance) {
-  double *theirs = calloc((size_t)n + 1, sizeof *theirs), largest = 1;
-  vectors_numbers(object, name, n, theirs);
+static inline void vectors_agree(const char *name, int n, const double *ours, const double *theirs, double tolerance) {
+  double largest = 1;
   for (int i = 0; i < n; i++) largest = fmax(largest, fabs(theirs[i]));
   for (int i = 0; i < n; i++)
     if (!(fabs(ours[i] - theirs[i]) <= tolerance * largest))
       fail_msg("%s[%d]: %.17g is not %.17g (difference %.3g)", name, i, ours[i], theirs[i], ours[i] - theirs[i]);
+}
+
+static inline void vectors_compare(const cJSON *object, const char *name, int n, const double *ours, double tolerance) {
+  double *theirs = calloc((size_t)n + 1, sizeof *theirs);
+  vectors_numbers(object, name, n, theirs);
+  vectors_agree(name, n, ours, theirs, tolerance);
   free(theirs);
 }
 
