@@ -62,9 +62,9 @@ export async function withBrowser(tools, options, use) {
   }
 }
 
-/* The page once it has drawn, with what it asked for and what it complained about. */
-export async function openPage(context, path) {
-  const page = await context.newPage(), requests = [], complaints = [];
+/* The page, in a given window or a new one, once it has drawn, with what it asked for and what it complained about. */
+export async function openPage(context, path, given = null) {
+  const page = given ?? (await context.newPage()), requests = [], complaints = [];
   page.on('request', (request) => requests.push(request.url()));
   page.on('console', (message) => complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(error.message));
@@ -72,6 +72,17 @@ export async function openPage(context, path) {
   await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 60000 });
   const ready = await page.evaluate(() => document.documentElement.dataset.ready);
   return { page, requests, complaints, ready };
+}
+
+/* A page with few triangles: drawing without a graphics card takes half a second of work for a picture of many. */
+export async function openCoarse(context, path, given = null) {
+  const opened = await openPage(context, path, given);
+  await opened.page.locator('#steps').evaluate((slider) => {
+    slider.value = 3; /* hidden on phones, so not by hand */
+    for (const event of ['input', 'change']) slider.dispatchEvent(new Event(event));
+  });
+  await settle(opened.page);
+  return opened;
 }
 
 /* Lets drawing come to rest: a few frames after the last event. */

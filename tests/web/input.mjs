@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Turning and zooming with real events of mouse, wheel, keys and fingers; gliding, and none where motion is reduced.
-import { cameraOf, countDifferences, ensure, exportPage, openPage, settle, takePicture, withBrowser } from './browser.mjs';
+import { cameraOf, countDifferences, ensure, exportPage, openCoarse, settle, takePicture, withBrowser } from './browser.mjs';
 
 /* In degrees, precise for small ones too; EXACT is what repeated rounding of a camera at rest may add up to. */
 const EXACT = 1e-9;
@@ -31,7 +31,7 @@ async function drag(page, from, to, button = 'left') {
 
 export async function mouse(tools) {
   await withBrowser(tools, {}, async (context) => {
-    const { page } = await openPage(context, exportPage(tools, 'pipe'));
+    const { page } = await openCoarse(context, exportPage(tools, 'pipe'));
     let seen = await observe(tools, page, 'drag', () => drag(page, [550, 250], [650, 280]));
     ensure(seen.turn > 10 && Math.abs(seen.zoom - 1) < EXACT && seen.pixels > 2000, 'dragging does not turn');
     seen = await observe(tools, page, 'wheel-in', () => page.mouse.wheel(0, -300));
@@ -49,7 +49,7 @@ export async function mouse(tools) {
 
 export async function keyboard(tools) {
   await withBrowser(tools, {}, async (context) => {
-    const { page } = await openPage(context, exportPage(tools, 'pipe'));
+    const { page } = await openCoarse(context, exportPage(tools, 'pipe'));
     const first = await takePicture(tools, page, 'keys-start');
     for (const [name, key, test] of [
       ['left', 'ArrowLeft', (s) => s.turn > 4], ['right', 'ArrowRight', (s) => s.turn > 4],
@@ -97,7 +97,7 @@ export async function keyboard(tools) {
 export async function touch(tools) {
   const options = { viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true, deviceScaleFactor: 1 };
   await withBrowser(tools, options, async (context) => {
-    const { page } = await openPage(context, exportPage(tools, 'pipe'));
+    const { page } = await openCoarse(context, exportPage(tools, 'pipe'));
     const session = await context.newCDPSession(page);
     const send = (type, ...points) => session.send('Input.dispatchTouchEvent',
       { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
@@ -135,13 +135,18 @@ async function countSteps(page, type, act) {
 }
 
 export async function motion(tools) {
-  for (const [reducedMotion, glides] of [['no-preference', true], ['reduce', false]])
-    await withBrowser(tools, { reducedMotion }, async (context) => {
-      const { page } = await openPage(context, exportPage(tools, 'star5'));
+  await withBrowser(tools, {}, async (context) => {
+    const path = exportPage(tools, 'star5');
+    for (const [reducedMotion, glides] of [['no-preference', true], ['reduce', false]]) {
+      const page = await context.newPage();
+      await page.emulateMedia({ reducedMotion });
+      await openCoarse(context, path, page);
       const key = await countSteps(page, 'keydown', () => page.keyboard.press('ArrowLeft'));
       const release = await countSteps(page, 'pointerup', () => drag(page, [500, 250], [600, 260]));
       console.log(`${reducedMotion}: a key turns the model in ${key} steps; after a drag ${release} steps follow`);
       ensure(glides ? key > 5 && release > 5 : key === 1 && release <= 1,
         `with ${reducedMotion} the model does not ${glides ? 'glide' : 'jump'}`);
-    });
+      await page.close();
+    }
+  });
 }

@@ -57,9 +57,11 @@ export async function title(tools) {
 export async function phone(tools) {
   const handheld = { hasTouch: true, isMobile: true, deviceScaleFactor: 1 };
   const path = exportPage(tools, 'pipe');
-  for (const [width, height] of [[390, 780], [320, 568], [780, 360]])
-    await withBrowser(tools, { ...handheld, viewport: { width, height } }, async (context) => {
-      const { page, ready } = await openPage(context, path);
+  await withBrowser(tools, handheld, async (context) => {
+    for (const [width, height] of [[390, 780], [320, 568], [780, 360]]) {
+      const page = await context.newPage();
+      await page.setViewportSize({ width, height });
+      const { ready } = await openPage(context, path, page);
       ensure(ready === 'yes', 'the page does not draw');
       await page.screenshot({ path: join(tools.out, `phone-${width}x${height}.png`) });
       await page.locator('label', { hasText: 'Curvature' }).first().tap();
@@ -84,7 +86,9 @@ export async function phone(tools) {
       ensure(facts.targets.every((t) => t.height >= 40), 'a button is too small for a finger');
       ensure(facts.fonts.every((size) => size >= 12), 'letters are too small');
       ensure(facts.canvas.width === width && facts.canvas.height === height, 'the surface does not fill the window');
-    });
+      await page.close();
+    }
+  });
 }
 
 /* The page says why it does not work: a damaged net, no drawing in this browser. */
