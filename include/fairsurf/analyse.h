@@ -18,6 +18,12 @@ typedef struct fs_measure {
 FS_API extern const fs_measure *const fs_measures[];        /* ends with NULL: mean, gaussian, gradient, … */
 FS_API const fs_measure *fs_measure_find(const char *name); /* NULL: unknown */
 
+/* A point of a surface by its patch. */
+typedef struct fs_place {
+  int32_t patch;
+  double u, v;
+} fs_place;
+
 /* Largest differences across all sides that two patches share. */
 typedef struct fs_contact {
   double position;           /* distance */
@@ -30,13 +36,42 @@ typedef struct fs_contact {
 /* n_samples + 1 equidistant points per side, ends included. */
 FS_API fs_status fs_surface_contact(fs_context *ctx, const fs_surface *surface, int32_t n_samples, fs_contact *contact);
 
-/* ---- edges: where patches meet -------------------------------------------------------------------------------------- */
+/* ---- the shape of a surface ------------------------------------------------------------------------------------------ */
 
-/* A point of a surface by its patch. */
-typedef struct fs_place {
-  int32_t patch;
-  double u, v;
-} fs_place;
+/* The values of a scalar over a surface. */
+enum { FS_N_PERCENTILES = 5 };
+FS_API extern const double fs_percentiles[FS_N_PERCENTILES]; /* 1, 5, 50, 95, 99 */
+typedef struct fs_distribution {
+  double min, max; /* followed to the extreme within the patch */
+  fs_place at_min, at_max;
+  double percentile[FS_N_PERCENTILES]; /* so many per cent of the area have a smaller value; from at most 2^20 points */
+} fs_distribution;
+
+/* The numbers of a surface as a whole [docs/measures.md]. NAN and FS_NONE where the surface has no normal anywhere. */
+typedef struct fs_shape {
+  double area;     /* integral of 1; length^2 */
+  double volume;   /* integral of p . n / 3: between the surface and the origin; of a closed surface what it encloses */
+  double willmore; /* integral of H^2; 4 pi on a sphere */
+  double S;        /* curvature variation, the integral of |grad H|^2; length^-2 */
+  double area_error, volume_error, willmore_error, S_error; /* estimates */
+  double diameter;                                          /* largest distance of two points */
+  fs_place diameter_end[2];
+  fs_distribution H, K, gradient; /* mean and Gaussian curvature, length of the gradient of H */
+  double curvature;               /* largest absolute principal curvature; its inverse is the smallest radius */
+  fs_place at_curvature;
+  double hollow; /* largest principal curvature: where positive, 1 / hollow is the largest radius of a
+                                     ball that touches the outside everywhere, the tool radius; */
+  double ridge;  /* least principal curvature: where negative, -1 / ridge is that of the inside */
+  fs_place at_hollow, at_ridge;
+  double regularity; /* least |p_u x p_v| of a point in relation to its average over the patch; 0: a singular point */
+  fs_place at_regularity;
+  int32_t n_singular; /* patches with a regularity below 1e-6 */
+} fs_shape;
+
+/* tolerance: wanted relative error of area and volume; 1e3 times that for the Willmore energy, 1e5 times for S; 0: 1e-10. */
+FS_API fs_status fs_shape_measure(fs_context *ctx, const fs_surface *surface, double tolerance, fs_shape *shape);
+
+/* ---- edges: where patches meet -------------------------------------------------------------------------------------- */
 
 /* A line along which two patches meet, or a line of the border. It runs along side[0] of patch[0] anticlockwise, from
    parameter t = begin[0] of that side to end[0] > begin[0], and along side[1] of patch[1] from begin[1] to end[1]. */

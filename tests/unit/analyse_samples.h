@@ -16,7 +16,7 @@ typedef struct series {
 
 /* cos(phase + t angle); with the phase shifted by -pi / 2 a sine. */
 static inline series sample_cosine(double phase, double angle) {
-  series s = {.n = 24};
+  series s = {.n = fabs(angle) > 2 ? 26 : 20};
   double factor = 1;
   for (int k = 0; k <= s.n; k++) {
     s.c[k] = factor * cos(phase + 1.5707963267948966 * k);
