@@ -5,12 +5,10 @@
    its four corners. The Bezier point next to a corner in the directions (s, t), each 0 or +-1 towards the inside, is
      S + s (h / 3) S_u + t (h / 3) S_v + s t (h^2 / 9) S_uv   [Farin 2002, 16.9].
    Neighbouring cells share position and derivatives along their side, hence C1; the error falls as h^4. */
-#include <fairsurf/surface.h>
-#include "base/base.h"
+#include "surface/surface.h"
 #include "math/vec3.h"
 
-/* The four points of one piece that its corner (corner_u, corner_v) determines. */
-static void set_corner(const fs_vec3 *x, double h, int corner_u, int corner_v, fs_vec3 *piece) {
+void fs_hermite_corner(const fs_vec3 *x, double h, int corner_u, int corner_v, fs_vec3 *piece) {
   double su = corner_u ? -1 : 1, sv = corner_v ? -1 : 1;
   for (int t = 0; t < 2; t++)
     for (int s = 0; s < 2; s++) {
@@ -34,12 +32,12 @@ void fs_surface_hermite_bicubics(const fs_surface *surface, int32_t patch, int32
         for (int corner_u = 0; corner_u < 2; corner_u++) {
           int32_t i = a - corner_u, j = b - corner_v; /* the cell of which this node is that corner */
           if (i < 0 || j < 0 || i >= n || j >= n) continue;
-          set_corner(x, h, corner_u, corner_v, bezier + 16 * ((size_t)i + (size_t)n * (size_t)j));
+          fs_hermite_corner(x, h, corner_u, corner_v, bezier + 16 * ((size_t)i + (size_t)n * (size_t)j));
         }
     }
 }
 
-static fs_vec3 bicubic_point(const fs_vec3 *piece, double u, double v) {
+fs_vec3 fs_bicubic_point(const fs_vec3 *piece, double u, double v) {
   const double p = 1 - u, q = 1 - v;
   const double B[4] = {p * p * p, 3 * p * p * u, 3 * p * u * u, u * u * u};
   const double C[4] = {q * q * q, 3 * q * q * v, 3 * q * v * v, v * v * v};
@@ -61,7 +59,7 @@ static double measure(const fs_surface *surface, int32_t patch, int32_t m, const
       double u = (i % N + 0.5) / N, v = (j % N + 0.5) / N;
       const fs_vec3 *piece = bezier + 16 * ((size_t)(i / N) + (size_t)n * (size_t)(j / N));
       fs_surface_evaluate(surface, patch, (i + 0.5) / (N * n), (j + 0.5) / (N * n), x);
-      double distance = fs_vec3_distance(x[FS_D], bicubic_point(piece, u, v));
+      double distance = fs_vec3_distance(x[FS_D], fs_bicubic_point(piece, u, v));
       if (!(distance <= largest)) largest = distance;
       if (!(largest <= enough)) return largest;
     }

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Gregory quads: a bicubic patch whose inner points are p_c for the sides u = 0, 1 and q_c for the sides v = 0, 1, blended:
      S = B(u, v) + sum_c 9 (1 - x)^2 (1 - y)^2 phi(x, y) (q_c - p_c)
-   with B the bicubic patch of the points p_c, x = u or 1 - u and y = v or 1 - v the distances from corner c, and phi of
+   with B the bicubic patch of the points p_c, or a patch of higher degrees, x = u or 1 - u and y = v or 1 - v the distances from corner c, and phi of
    gregory.h   [Chiyokura Kimura 1983; docs/patches.md, B]. */
 #include "surface/gregory.h"
 #include "surface/surface.h"
 #include "math/vec3.h"
 
-enum { N_POINTS = 20 };
-
 size_t fs_gregory_quad_numbers(const fs_patch *patch) {
-  return patch->degree_u == 3 && patch->degree_v == 3 ? 3 * N_POINTS : 0;
+  if (patch->degree_u < 3 || patch->degree_v < 3) return 0;
+  size_t n = fs_tensor_bezier_numbers(patch);
+  return n == 0 ? 0 : n + 12;
 }
 
 /* w = 9 (1 - x)^2 (1 - y)^2 phi(x, y) and its derivatives by u and v; sx, sy = dx/du, dy/dv are 1 or -1. */
@@ -38,13 +38,14 @@ static void corner_weight(double x, double sx, double y, double sy, double *w) {
 }
 
 void fs_gregory_quad_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x) {
-  static const uint8_t inner[4] = {5, 6, 9, 10}; /* points (1, 1), (2, 1), (1, 2), (2, 2) */
+  const int32_t n = patch->degree_u, m = patch->degree_v, row = n + 1;
+  const int32_t inner[4] = {1 + row, n - 1 + row, 1 + (m - 1) * row, n - 1 + (m - 1) * row};
   const double *point = data + patch->data_start;
   double w[FS_JET_SIZE];
   fs_tensor_bezier_jet(patch, data, u, v, x);
   if (fs_gregory_quad_numbers(patch) == 0) return;
   for (int c = 0; c < 4; c++) {
-    const double *p = point + 3 * inner[c], *q = point + 3 * (16 + c);
+    const double *p = point + 3 * inner[c], *q = point + 3 * (row * (m + 1) + c);
     const fs_vec3 difference = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
     if (fs_vec3_dot(difference, difference) == 0) continue; /* polynomial, so third derivatives exist at the corner */
     bool is_right = c % 2 == 1, is_upper = c >= 2;

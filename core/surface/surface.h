@@ -26,6 +26,11 @@ fs_status fs_surface_corners(fs_context *ctx, const fs_surface *surface, int32_t
 void fs_domain_corner(int32_t n_sides, int32_t c, double *uv);
 void fs_domain_centre(int32_t n_sides, double *uv);
 
+/* The four points of a bicubic piece of width h that its corner (corner_u, corner_v), 0 or 1 each, determines by the jet x
+   there; and a point of a bicubic piece. */
+void fs_hermite_corner(const fs_vec3 *x, double h, int corner_u, int corner_v, fs_vec3 *piece);
+fs_vec3 fs_bicubic_point(const fs_vec3 *piece, double u, double v);
+
 /* The functions of the table of kinds. */
 size_t fs_tensor_bezier_numbers(const fs_patch *patch);
 void fs_tensor_bezier_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x);

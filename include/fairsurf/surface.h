@@ -14,8 +14,10 @@ extern "C" {
    tensor Bezier     point (i, j), i along u, is number i + (degree_u + 1) j
    Bezier triangle   of degree n = degree_u = degree_v: rows of n + 1, n, .. 1 points; the coefficient of
                      n! / (i! j! k!) (1 - u - v)^i u^j v^k is point j of row k
-   Gregory quad      16 points as of a tensor Bezier patch of degree (3, 3), the inner ones those for the sides 1 and 3;
-                     then the inner points (1, 1), (2, 1), (1, 2), (2, 2) for the sides 0 and 2 [docs/patches.md]
+   Gregory quad      those of a tensor Bezier patch of degrees 3 or more; then four points q, one beside each of its points
+                     p = (1, 1), (degree_u - 1, 1), (1, degree_v - 1), (degree_u - 1, degree_v - 1). The patch is that
+                     tensor patch and, for each corner, 9 (1 - x)^2 (1 - y)^2 x^2 y / (x + y) (q - p), x and y the
+                     distances of u and v from it: for degree (3, 3) p acts on the sides 1 and 3, q on 0 and 2
    Gregory triangle  15 points as of a Bezier triangle of degree 4, the inner one at corner c that for side c - 1; then
                      the inner points at corners 0, 1, 2 for the sides 0, 1, 2 */
 typedef enum fs_patch_kind {

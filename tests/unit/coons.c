@@ -1,0 +1,424 @@
+/* SPDX-License-Identifier: MIT */
+/* Coons patches: interpolation, continuity, reproduction, order of approximation, invariance, exact nets, refusals. */
+#include "coons_samples.h"
+#include "math/bernstein.h"
+#include "../support/support.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+static const sample_square unit_square = {sample_F, 0, 0, 1, {{0, 0, 0}}, {0, 0, 0}};
+
+static void near(double a, double b, double tolerance) {
+  if (!(fabs(a - b) <= tolerance)) fail_msg("%.17g is not %.17g (difference %.3g)", a, b, a - b);
+}
+
+static void near_points(fs_vec3 a, fs_vec3 b, double tolerance) {
+  if (!(fs_vec3_distance(a, b) <= tolerance))
+    fail_msg("(%.12g %.12g %.12g) is not (%.12g %.12g %.12g)", a.x, a.y, a.z, b.x, b.y, b.z);
+}
+
+static fs_coons prepare(const fs_coons_data *data) {
+  fs_context ctx = test_context();
+  fs_coons coons;
+  if (fs_coons_prepare(&ctx, data, 1e-9, &coons) != FS_OK) fail_msg("%s", ctx.message);
+  return coons;
+}
+
+static int jet_number(int p, int q) {
+  static const int number[4][4] = {
+      {FS_D, FS_DV, FS_DVV, FS_DVVV}, {FS_DU, FS_DUV, FS_DUVV}, {FS_DUU, FS_DUUV}, {FS_DUUU}};
+  return number[p][q];
+}
+
+/* ---- what is interpolated ---- */
+
+static void test_interpolation(void **state) {
+  (void)state;
+  for (int n_data = 2; n_data <= 6; n_data += 2) {
+    sample_line line[2][6];
+    fs_coons_data data = sample_coons(&unit_square, n_data, line);
+    fs_coons coons = prepare(&data);
+    fs_vec3 x[FS_JET_SIZE];
+    for (int k = 0; k <= 8; k++)
+      for (int side = 0; side < 2; side++)
+        for (int across = 0; across < n_data / 2; across++)
+          for (int along = 0; along + across <= 3; along++) {
+            double t = k / 8.0;
+            fs_coons_evaluate(&coons, side, t, x);
+            near_points(x[jet_number(across, along)], sample_F(side, t, across, along), 1e-12);
+            fs_coons_evaluate(&coons, t, side, x);
+            near_points(x[jet_number(along, across)], sample_F(t, side, along, across), 1e-12);
+          }
+  }
+}
+
+static void check_differences(const fs_coons *coons, double u, double v) {
+  const double h = 1e-3, at[4] = {-2, -1, 1, 2}, weight[4] = {1, -8, 8, -1};
+  fs_vec3 x[FS_JET_SIZE], y[FS_JET_SIZE];
+  fs_coons_evaluate(coons, u, v, x);
+  for (int p = 0; p < 3; p++)
+    for (int q = 0; p + q < 3; q++) {
+      fs_vec3 by_u = {0, 0, 0}, by_v = {0, 0, 0};
+      for (int i = 0; i < 4; i++) {
+        fs_coons_evaluate(coons, u + at[i] * h, v, y);
+        by_u = fs_vec3_add_scaled(by_u, y[jet_number(p, q)], weight[i] / (12 * h));
+        fs_coons_evaluate(coons, u, v + at[i] * h, y);
+        by_v = fs_vec3_add_scaled(by_v, y[jet_number(p, q)], weight[i] / (12 * h));
+      }
+      near_points(by_u, x[jet_number(p + 1, q)], 2e-7);
+      near_points(by_v, x[jet_number(p, q + 1)], 2e-7);
+    }
+}
+
+static void test_derivatives(void **state) {
+  (void)state;
+  for (int n_data = 2; n_data <= 6; n_data += 2) {
+    sample_line line[2][6];
+    fs_coons_data data = sample_coons(&unit_square, n_data, line);
+    data.is_gregory = n_data == 4;
+    for (int b = 2; b < 4 && n_data == 4; b++) line[1][b].bump = (fs_vec3){0.3, -0.2, 0.5};
+    fs_coons coons = prepare(&data);
+    check_differences(&coons, 0.37, 0.61);
+    check_differences(&coons, 0.9, 0.2);
+  }
+}
+
+/* Different twists from each side: all sides and derivatives across are met nevertheless. */
+static void test_square(void **state) {
+  sample_line line[2][6];
+  fs_coons_data data = sample_coons(&unit_square, 4, line);
+  fs_context ctx = test_context();
+  fs_coons coons;
+  fs_vec3 x[FS_JET_SIZE], curve[4];
+  (void)state;
+  for (int b = 2; b < 4; b++)
+    line[1][b].bump = (fs_vec3){0.3, -0.2 * b, 0.5}, line[0][b].bump = (fs_vec3){0.1 * b, 0, 1};
+  assert_int_equal(fs_coons_prepare(&ctx, &data, 1e-9, &coons), FS_ERR_NUMERIC);
+  assert_non_null(strstr(ctx.message, "the sides u = 0 and v = 0 differ at (0, 0) by"));
+  assert_non_null(strstr(ctx.message, "in S_uv"));
+  data.is_gregory = true;
+  coons = prepare(&data);
+  for (int k = 1; k <= 8; k++)
+    for (int side = 0; side < 2; side++)
+      for (int across = 0; across < 2; across++) {
+        double t = k / 9.0;
+        fs_coons_evaluate(&coons, side, t, x);
+        data.at_u[2 * across + side].evaluate(data.at_u[2 * across + side].user, t, curve);
+        near_points(x[jet_number(across, 0)], curve[0], 1e-12);
+        fs_coons_evaluate(&coons, t, side, x);
+        data.at_v[2 * across + side].evaluate(data.at_v[2 * across + side].user, t, curve);
+        near_points(x[jet_number(0, across)], curve[0], 1e-12);
+      }
+}
+
+/* ---- neighbours ---- */
+
+static void test_continuity(void **state) {
+  const sample_square next = {sample_F, 1, 0, 1, {{0, 0, 0}}, {0, 0, 0}};
+  (void)state;
+  for (int n_data = 2; n_data <= 6; n_data += 2) {
+    sample_line line[2][6], other[2][6];
+    fs_coons_data data = sample_coons(&unit_square, n_data, line), data2 = sample_coons(&next, n_data, other);
+    fs_coons a = prepare(&data), b = prepare(&data2);
+    fs_vec3 x[FS_JET_SIZE], y[FS_JET_SIZE];
+    for (int k = 0; k <= 6; k++) {
+      fs_coons_evaluate(&a, 1, k / 6.0, x);
+      fs_coons_evaluate(&b, 0, k / 6.0, y);
+      near_points(x[FS_D], y[FS_D], 1e-12);
+      if (n_data >= 4) near_points(x[FS_DU], y[FS_DU], 1e-12);
+      if (n_data >= 4) near_points(x[FS_DUV], y[FS_DUV], 1e-12);
+      if (n_data >= 6) near_points(x[FS_DUU], y[FS_DUU], 1e-11);
+    }
+  }
+}
+
+/* With smooth blending two patches join C1 where their sides do; with linear blending they do not. */
+static void test_blending(void **state) {
+  const double b0[4] = {1, 1, 0, 0}, b1[4] = {0, 0, 1, 1};
+  const sample_square next = {sample_F, 1, 0, 1, {{0, 0, 0}}, {0, 0, 0}};
+  (void)state;
+  for (int is_smooth = 0; is_smooth < 2; is_smooth++) {
+    sample_line line[2][6], other[2][6];
+    fs_coons_data data = sample_coons(&unit_square, 2, line), data2 = sample_coons(&next, 2, other);
+    if (is_smooth) {
+      data.blend_degree = data2.blend_degree = 3;
+      data.blend[0] = data2.blend[0] = b0, data.blend[1] = data2.blend[1] = b1;
+    }
+    fs_coons a = prepare(&data), b = prepare(&data2);
+    fs_vec3 x[FS_JET_SIZE], y[FS_JET_SIZE];
+    double gap = 0;
+    for (int k = 0; k <= 6; k++) {
+      fs_coons_evaluate(&a, 1, k / 6.0, x);
+      fs_coons_evaluate(&b, 0, k / 6.0, y);
+      gap = fmax(gap, fs_vec3_distance(x[FS_DU], y[FS_DU]));
+    }
+    assert_true(is_smooth ? gap < 1e-12 : gap > 1e-3);
+  }
+}
+
+/* ---- what is reproduced ---- */
+
+/* Of degree 3 in u, anything in v. */
+static fs_vec3 cubic_in_u(double u, double v, int p, int q) {
+  const double power[4] = {u * u * u - u, 3 * u * u - 1, 6 * u, 6};
+  return (fs_vec3){power[p] * sample_sin(2, v, q), (power[p] + 2 * sample_linear(u, p)) * sample_exp(0.5, v, q),
+                   (p == 0) * sample_exp(-1, v, q)};
+}
+
+static fs_vec3 plane(double u, double v, int p, int q) {
+  fs_vec3 x = sample_F(u, v, p, q);
+  return (fs_vec3){x.x, x.y, 2 * (p + q == 0)};
+}
+
+static void test_reproduction(void **state) {
+  const sample_square cubic = {cubic_in_u, 0, 0, 1, {{0, 0, 0}}, {0, 0, 0}},
+                      flat = {plane, 0, 0, 1, {{0, 0, 0}}, {0, 0, 0}};
+  (void)state;
+  for (int n_data = 2; n_data <= 6; n_data += 2) {
+    sample_line line[2][6], other[2][6];
+    fs_coons_data data = sample_coons(&cubic, n_data, line), data2 = sample_coons(&flat, n_data, other);
+    fs_coons a = prepare(&data), b = prepare(&data2);
+    fs_vec3 x[FS_JET_SIZE];
+    for (int k = 0; k < 9; k++) {
+      double u = 0.1 + 0.4 * (k % 3), v = 0.15 + 0.35 * (k / 3);
+      fs_coons_evaluate(&b, u, v, x);
+      near(x[FS_D].z, 2, 1e-13);
+      if (n_data == 2) continue;
+      fs_coons_evaluate(&a, u, v, x);
+      near_points(x[FS_D], cubic_in_u(u, v, 0, 0), 1e-13);
+      near_points(x[FS_DUUV], cubic_in_u(u, v, 2, 1), 1e-11);
+    }
+  }
+}
+
+/* Error on squares of half the size: orders 4, 8, 12. */
+static double error_of(int n_data, double size) {
+  const sample_square square = {sample_F, 0.5 - size / 2, 0.5 - size / 2, size, {{0, 0, 0}}, {0, 0, 0}};
+  sample_line line[2][6];
+  fs_coons_data data = sample_coons(&square, n_data, line);
+  fs_coons coons = prepare(&data);
+  fs_vec3 x[FS_JET_SIZE];
+  double largest = 0;
+  for (int k = 0; k < 49; k++) {
+    double u = k % 7 / 6.0, v = k / 7 / 6.0;
+    fs_coons_evaluate(&coons, u, v, x);
+    largest = fmax(largest, fs_vec3_distance(x[FS_D], sample_value(&square, u, v, 0, 0)));
+  }
+  return largest;
+}
+
+static void test_order(void **state) {
+  (void)state;
+  near(log2(error_of(2, 0.2) / error_of(2, 0.1)), 4, 0.1);
+  near(log2(error_of(4, 0.8) / error_of(4, 0.4)), 8, 0.2);
+  near(log2(error_of(6, 1.6) / error_of(6, 0.8)), 12, 0.4);
+}
+
+static void test_affine(void **state) {
+  const sample_square moved = {sample_F, 0, 0, 1, {{1, .2, -.3}, {.4, -.8, .1}, {.7, .5, 1.3}}, {3, -2, 1}};
+  (void)state;
+  for (int n_data = 2; n_data <= 6; n_data += 2) {
+    sample_line line[2][6], other[2][6];
+    fs_coons_data data = sample_coons(&unit_square, n_data, line), data2 = sample_coons(&moved, n_data, other);
+    fs_coons a = prepare(&data), b = prepare(&data2);
+    fs_vec3 x[FS_JET_SIZE], y[FS_JET_SIZE], z;
+    fs_coons_evaluate(&a, 0.3, 0.7, x);
+    fs_coons_evaluate(&b, 0.3, 0.7, y);
+    z = fs_vec3_add_scaled(fs_vec3_scale(moved.column[0], x[FS_D].x), moved.column[1], x[FS_D].y);
+    z = fs_vec3_add(fs_vec3_add_scaled(z, moved.column[2], x[FS_D].z), moved.shift);
+    near_points(y[FS_D], z, 1e-12);
+  }
+}
+
+/* ---- nets ---- */
+
+typedef struct bezier_sides {
+  fs_vec3 point[8][8];
+  fs_bezier_curve curve[8]; /* at_u[0 .. 3], at_v[0 .. 3] */
+} bezier_sides;
+
+/* Cubic sides of the surface's corners with Adini's twists, or with others for the sides of v. */
+static void make_sides(bool is_torn, bezier_sides *s, fs_coons_data *data) {
+  uint64_t seed = 4;
+  fs_vec3 twist[2][2], across_u[2][4], across_v[2][4];
+  *data = (fs_coons_data){.n_data = 4, .is_gregory = is_torn};
+  for (int k = 0; k < 8; k++) {
+    s->curve[k] = (fs_bezier_curve){3, s->point[k]};
+    (k < 4 ? data->at_u : data->at_v)[k % 4] = (fs_curve){fs_bezier_evaluate, &s->curve[k]};
+  }
+  for (int side = 0; side < 2; side++)
+    for (int i = 0; i < 4; i++) {
+      s->point[side][i] = (fs_vec3){side, i / 3.0, test_random_real(&seed, 0, 1)};
+      s->point[4 + side][i] = (fs_vec3){i / 3.0, side, test_random_real(&seed, 0, 1)};
+    }
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++) s->point[4 + j][3 * i] = s->point[i][3 * j];
+  fs_adini_twists(data->at_u, data->at_v, twist);
+  fs_coons_cross(data->at_u, data->at_v, (const fs_vec3(*)[2])twist, across_u, across_v);
+  for (int side = 0; side < 2; side++)
+    for (int i = 0; i < 4; i++) s->point[2 + side][i] = across_u[side][i], s->point[6 + side][i] = across_v[side][i];
+  for (int side = 0; side < 2 && is_torn; side++) s->point[6 + side][1].z += 0.4, s->point[6 + side][2].x -= 0.2 * side;
+}
+
+/* The exact patch, tensor Bezier or Gregory quad, has the derivatives of the Boolean sum. */
+static void test_bezier(void **state) {
+  (void)state;
+  for (int is_torn = 0; is_torn < 2; is_torn++)
+    for (int degree = 3; degree <= 5; degree += 2) {
+      bezier_sides s;
+      fs_coons_data data;
+      fs_context ctx = test_context();
+      fs_surface *surface = NULL;
+      fs_vec3 x[FS_JET_SIZE], y[FS_JET_SIZE], raised[6];
+      make_sides(is_torn, &s, &data);
+      if (degree > 3) { /* a side of higher degree */
+        fs_bernstein_elevate(3, 3, &s.point[5][0].x, degree, &raised[0].x);
+        raised[2].z += 0.3, raised[3].x += 0.1;
+        s.curve[5] = (fs_bezier_curve){degree, raised};
+      }
+      fs_coons coons = prepare(&data);
+      assert_int_equal(fs_coons_to_bezier(&ctx, &coons, &surface), FS_OK);
+      assert_int_equal(surface->patch->kind, is_torn ? FS_PATCH_GREGORY_QUAD : FS_PATCH_TENSOR_BEZIER);
+      assert_int_equal(fs_surface_validate(&ctx, surface), FS_OK);
+      assert_int_equal(surface->patch->degree_u, degree);
+      for (int k = 0; k < 25; k++) {
+        double u = k % 5 / 4.0, v = k / 5 / 4.0;
+        bool is_corner = fmin(u, 1 - u) + fmin(v, 1 - v) == 0;
+        fs_coons_evaluate(&coons, u, v, x);
+        fs_surface_evaluate(surface, 0, u, v, y);
+        for (int i = 0; i < FS_JET_SIZE && !(is_corner && is_torn && i > FS_DVV); i++) near_points(x[i], y[i], 1e-11);
+      }
+      fs_surface_free(&ctx, surface);
+    }
+}
+
+/* Neighbours that share a side, its end tangents and twists join C1. */
+static void test_cross(void **state) {
+  bezier_sides s;
+  fs_coons_data data;
+  fs_vec3 x[FS_JET_SIZE];
+  (void)state;
+  make_sides(false, &s, &data);
+  fs_coons coons = prepare(&data);
+  fs_coons_evaluate(&coons, 0, 0, x);
+  near_points(x[FS_DU], fs_vec3_scale(fs_vec3_sub(s.point[4][1], s.point[4][0]), 3), 1e-13);
+  fs_coons_evaluate(&coons, 1, 0.3, x);
+  fs_vec3 curve[4];
+  fs_bezier_evaluate(&s.curve[3], 0.3, curve);
+  near_points(x[FS_DU], curve[0], 1e-13);
+}
+
+/* de Boor's algorithm at t < last knot. */
+static fs_vec3 spline_point(int degree, int n, const double *knot, const fs_vec3 *point, double t) {
+  fs_vec3 d[8];
+  int k = degree;
+  while (k + 1 < n && knot[k + 1] <= t) k++;
+  for (int i = 0; i <= degree; i++) d[i] = point[k - degree + i];
+  for (int r = 1; r <= degree; r++)
+    for (int i = degree; i >= r; i--) {
+      double low = knot[k - degree + i], high = knot[k + 1 + i - r], a = (t - low) / (high - low);
+      d[i] = fs_vec3_add_scaled(fs_vec3_scale(d[i - 1], 1 - a), d[i], a);
+    }
+  return d[degree];
+}
+
+static void test_spline(void **state) {
+  const double U[10] = {0, 0, 0, 0, .3, .6, 1, 1, 1, 1}, V[7] = {2, 2, 2, 3, 4, 4, 4};
+  fs_vec3 c[2][6], d[2][4], net[24];
+  const fs_vec3 *const at_v[2] = {c[0], c[1]}, *const at_u[2] = {d[0], d[1]};
+  fs_context ctx = test_context();
+  uint64_t seed = 8;
+  (void)state;
+  for (int k = 0; k < 12; k++) c[k / 6][k % 6] = (fs_vec3){k % 6, k / 6, test_random_real(&seed, 0, 1)};
+  for (int k = 0; k < 8; k++) d[k / 4][k % 4] = (fs_vec3){5 * (k / 4), k % 4 / 3.0, test_random_real(&seed, 0, 1)};
+  for (int k = 0; k < 4; k++) d[k / 2][3 * (k % 2)] = c[k % 2][5 * (k / 2)];
+  assert_int_equal(fs_coons_spline_net(&ctx, 3, 6, U, at_v, 2, 4, V, at_u, 1e-12, net), FS_OK);
+  for (int k = 0; k < 16; k++) {
+    double u = 0.05 + 0.3 * (k % 4), v = 0.1 + 0.25 * (k / 4);
+    fs_vec3 row[4], sum;
+    for (int j = 0; j < 4; j++) row[j] = spline_point(3, 6, U, net + 6 * j, u);
+    sum = fs_vec3_scale(spline_point(3, 6, U, c[0], u), 1 - v);
+    sum = fs_vec3_add_scaled(sum, spline_point(3, 6, U, c[1], u), v);
+    sum = fs_vec3_add_scaled(sum, spline_point(2, 4, V, d[0], 2 + 2 * v), 1 - u);
+    sum = fs_vec3_add_scaled(sum, spline_point(2, 4, V, d[1], 2 + 2 * v), u);
+    for (int i = 0; i < 4; i++)
+      sum = fs_vec3_add_scaled(sum, c[i / 2][5 * (i % 2)], -(i % 2 ? u : 1 - u) * (i / 2 ? v : 1 - v));
+    near_points(spline_point(2, 4, V, row, 2 + 2 * v), sum, 1e-13);
+  }
+  d[1][3].z += 0.1;
+  assert_int_equal(fs_coons_spline_net(&ctx, 3, 6, U, at_v, 2, 4, V, at_u, 1e-12, net), FS_ERR_NUMERIC);
+  assert_non_null(strstr(ctx.message, "the sides u = 1 and v = 1 differ at (1, 1) by 0.1 in S"));
+  const double bad[7] = {2, 2, 2, 5, 4, 4, 4};
+  assert_int_equal(fs_coons_spline_net(&ctx, 3, 6, U, at_v, 2, 4, bad, at_u, 1e-12, net), FS_ERR_ARGUMENT);
+  assert_non_null(strstr(ctx.message, "knot 4 along v is 4 and below knot 3, 5"));
+}
+
+static void test_bicubics(void **state) {
+  sample_line line[2][6];
+  fs_coons_data data = sample_coons(&unit_square, 6, line);
+  fs_coons coons = prepare(&data);
+  fs_context ctx = test_context();
+  fs_surface *s = NULL;
+  fs_vec3 x[FS_JET_SIZE], y[FS_JET_SIZE];
+  double deviation;
+  (void)state;
+  assert_int_equal(fs_coons_to_bicubics(&ctx, &coons, 1e-5, 6, &s, &deviation), FS_OK);
+  assert_true(deviation <= 1e-5);
+  assert_int_equal(fs_surface_validate(&ctx, s), FS_OK);
+  int n = (int)(sqrt(s->n_patches) + 0.5);
+  for (int k = 0; k < s->n_patches; k++) {
+    fs_surface_evaluate(s, k, 0.4, 0.7, x);
+    fs_coons_evaluate(&coons, (k % n + 0.4) / n, (k / n + 0.7) / n, y);
+    near_points(x[FS_D], y[FS_D], 1e-5);
+  }
+  fs_surface_free(&ctx, s);
+}
+
+/* ---- refusals ---- */
+
+static void refuse(const fs_coons_data *data, fs_status due, const char *part) {
+  fs_context ctx = test_context();
+  fs_coons coons;
+  assert_int_equal(fs_coons_prepare(&ctx, data, 1e-9, &coons), due);
+  if (strstr(ctx.message, part) == NULL) fail_msg("\"%s\" does not hold \"%s\"", ctx.message, part);
+}
+
+static void test_refusals(void **state) {
+  const double square0[3] = {1, 0, 0}, square1[3] = {0, 0, 1}, wrong[3] = {1, 0, 0.5};
+  sample_line line[2][6];
+  bezier_sides s;
+  fs_context ctx = test_context();
+  fs_surface *surface = NULL;
+  fs_coons coons;
+  fs_coons_data data = sample_coons(&unit_square, 2, line);
+  (void)state;
+  data.n_data = 3, refuse(&data, FS_ERR_ARGUMENT, "2, 4 or 6 data per direction, not 3"), data.n_data = 2;
+  data.is_gregory = true, refuse(&data, FS_ERR_ARGUMENT, "Gregory's square"), data.is_gregory = false;
+  data.blend_degree = 2, data.blend[0] = square0, data.blend[1] = square1;
+  refuse(&data, FS_ERR_ARGUMENT, "do not sum to 1: coefficients 1 sum to 0");
+  data.blend[0] = wrong, refuse(&data, FS_ERR_ARGUMENT, "blending function 0 is 0.5 at 1, not 0");
+  data.blend_degree = 0;
+  coons = prepare(&data);
+  assert_int_equal(fs_coons_to_bezier(&ctx, &coons, &surface), FS_ERR_UNSUPPORTED);
+  make_sides(false, &s, &data);
+  s.point[5][3].x += 1e-3;
+  refuse(&data, FS_ERR_NUMERIC, "the sides u = 1 and v = 1 differ at (1, 1) by 0.001 in S");
+  s.point[5][3].x -= 1e-3, s.point[2][0].z += 1e-3;
+  refuse(&data, FS_ERR_NUMERIC, "the sides u = 0 and v = 0 differ at (0, 0) by 0.001 in S_u");
+  s.point[2][0].z -= 1e-3, s.point[0][0].x = NAN;
+  refuse(&data, FS_ERR_NUMERIC, "the sides u = 0 and v = 0 differ at (0, 0) by nan in S");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_interpolation), cmocka_unit_test(test_derivatives), cmocka_unit_test(test_square),
+      cmocka_unit_test(test_continuity),    cmocka_unit_test(test_blending),    cmocka_unit_test(test_reproduction),
+      cmocka_unit_test(test_order),         cmocka_unit_test(test_affine),      cmocka_unit_test(test_bezier),
+      cmocka_unit_test(test_cross),         cmocka_unit_test(test_spline),      cmocka_unit_test(test_bicubics),
+      cmocka_unit_test(test_refusals),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
