@@ -5,7 +5,7 @@
    Newton-like steps each, and a unique result, where the last C alone would need many and may end elsewhere. All but the last
    stage stop early, and run with few quadrature nodes, as does the way to the neighbourhood of a minimum; the last steps see
    all nodes and converge quadratically. */
-#include "fair/setup.h"
+#include "fair/constrain.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,6 +26,7 @@ typedef struct course {
   const fs_fair_options *options;
   fs_fair_report *report;
   fs_setup setup;
+  fs_base base; /* with linear constraints: the dofs by fewer numbers */
   fs_solver *solver;
   fs_damping damping;
   double *x, *g, gradient_start;
@@ -147,16 +148,18 @@ static fs_status begin_triharmonic(course *c, const fs_space *space) {
   fs_status status = FS_OK;
   fs_fair_report unused = {0};
   fs_fair_options options = {.fixed = c->options->fixed,
+                             .constraints = c->options->constraints,
                              .n_nodes_square = c->options->n_nodes_square,
                              .n_nodes_cap = c->options->n_nodes_cap,
                              .max_iterations = 4};
   course linear = {.ctx = c->ctx, .options = &options, .report = &unused, .solver = c->solver, .x = c->x, .g = c->g};
   FS_TRY(
       fs_setup_create(c->ctx, space, &options, fs_functional_find("triharmonic"), c->setup.problem->c, &linear.setup));
-  fs_problem_get(linear.setup.problem, c->x);
+  fs_setup_share(&linear.setup, &c->setup);
   FS_TRY(run_stages(&linear));
-  fs_problem_set(c->setup.problem, c->x);
+  fs_setup_place(&c->setup, c->x);
 done:
+  fs_setup_share(&linear.setup, NULL);
   fs_setup_free(c->ctx, &linear.setup);
   return status;
 }
@@ -164,20 +167,20 @@ done:
 static fs_status run_course(course *c, const fs_space *space) {
   fs_status status = FS_OK;
   fs_problem *p = c->setup.problem;
+  const fs_constraints *constraints = c->options->constraints;
   double area = c->setup.term_A != FS_NONE ? c->report->start.integral[c->setup.term_A] : 0;
   fs_energy begin = c->report->start;
-  FS_TRY(fs_solver_create(c->ctx, p->pattern, &c->solver));
-  if (c->options->start_triharmonic) {
-    FS_TRY(begin_triharmonic(c, space));
-    FS_TRY(fs_setup_measure(&c->setup, c->g, &begin));
-  }
+  FS_TRY(fs_solver_create(c->ctx, fs_setup_pattern(&c->setup), &c->solver));
+  fs_setup_place(&c->setup, c->x);
+  if (c->options->start_triharmonic) FS_TRY(begin_triharmonic(c, space));
+  if (c->options->start_triharmonic || c->setup.reduction != NULL) FS_TRY(fs_setup_measure(&c->setup, c->g, &begin));
   FS_TRY(check_start(c->ctx, &c->setup, &begin));
   c->gradient_start = begin.gradient;
-  fs_problem_get(p, c->x);
   FS_TRY(run_stages(c));
   FS_TRY(fs_problem_set_level(p, 0));
-  fs_problem_set(p, c->x);
+  fs_setup_place(&c->setup, c->x);
   if (c->setup.functional->is_scale_free) FS_TRY(fs_setup_restore_area(&c->setup, area));
+  if (constraints != NULL && constraints->symmetry != NULL) fs_symmetry_apply(constraints->symmetry, p->c);
   FS_TRY(fs_setup_measure(&c->setup, c->g, &c->report->end));
 done:
   fs_solver_free(c->ctx, c->solver);
@@ -190,23 +193,48 @@ static int32_t count_free_inner(const fs_problem *p) {
   return n;
 }
 
+/* The setup; with linear constraints in fewer unknowns, which then are set in c->x. *own: options with what is fixed by
+   symmetry too. */
+static fs_status begin_constraints(course *c, const fs_space *space, const fs_vec3 *dofs, fs_fair_options *own) {
+  fs_status status = FS_OK;
+  const fs_constraints *k = own->constraints;
+  const fs_functional *functional = functional_of(own);
+  if (k == NULL || (k->n_holds == 0 && k->n_equations == 0 && k->symmetry == NULL))
+    return fs_setup_create(c->ctx, space, own, functional, dofs, &c->setup);
+  FS_TRY(fs_base_create(c->ctx, space, own->fixed, k->symmetry, dofs, &c->base));
+  own->fixed = c->base.is_constant;
+  FS_TRY(fs_setup_create(c->ctx, space, own, functional, c->base.c, &c->setup));
+  FS_TRY(fs_constrain_setup(c->ctx, space, k, &c->base, &c->setup, &c->x));
+done:
+  return status;
+}
+
 fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options *options, fs_vec3 *dofs,
                   fs_fair_report *report) {
   fs_status status = FS_OK;
   fs_fair_report r = {.n_squares = space->n_elements, .n_caps = space->n_caps};
-  course c = {.ctx = ctx, .options = options, .report = &r};
+  fs_fair_options own = *options;
+  course c = {.ctx = ctx, .options = &own, .report = &r};
   clock_gettime(CLOCK_MONOTONIC, &c.start);
-  FS_TRY(fs_setup_create(ctx, space, options, functional_of(options), dofs, &c.setup));
+  FS_TRY(begin_constraints(&c, space, dofs, &own));
   r.functional = c.setup.functional;
   r.n_free = c.setup.problem->n_free;
   r.n_free_inner = count_free_inner(c.setup.problem);
   FS_ALLOC(ctx, c.g, 3 * (size_t)r.n_free);
-  FS_ALLOC(ctx, c.x, 3 * (size_t)r.n_free);
+  if (c.x == NULL) {
+    FS_ALLOC(ctx, c.x, 3 * (size_t)r.n_free);
+    fs_problem_get(c.setup.problem, c.x);
+  }
+  r.n_unknowns = fs_setup_n(&c.setup);
   FS_TRY(fs_setup_measure(&c.setup, c.g, &r.start));
   r.end = r.start;
   r.stop = options->max_iterations < 0 ? FS_STOP_ITERATIONS : FS_STOP_GRADIENT;
-  if (r.n_free > 0 && options->max_iterations >= 0) {
+  if (r.n_unknowns > 0 && options->max_iterations >= 0) {
     FS_TRY(run_course(&c, space));
+    memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
+  } else if (c.setup.reduction != NULL && options->max_iterations >= 0) {
+    fs_setup_place(&c.setup, c.x);
+    FS_TRY(fs_setup_measure(&c.setup, c.g, &r.end));
     memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
   }
   r.c = fs_setup_c(&c.setup);
@@ -215,6 +243,7 @@ done:
   fs_release(ctx, c.x);
   fs_release(ctx, c.g);
   fs_setup_free(ctx, &c.setup);
+  fs_base_free(ctx, &c.base);
   return status;
 }
 

@@ -3,60 +3,11 @@
 #include "fair/setup.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-/* ---- scale ------------------------------------------------------------------------------------------------------- */
-
-typedef struct radial {
-  double radius;
-  fs_vec3 position;
-} radial;
-
-static int compare_radius(const void *a, const void *b) {
-  double x = ((const radial *)a)->radius, y = ((const radial *)b)->radius;
-  return (x < y) - (x > y);
-}
-
-static double distance(fs_vec3 a, fs_vec3 b) { return hypot(hypot(a.x - b.x, a.y - b.y), a.z - b.z); }
-
-/* Largest distance of two fixed vertices: pairs are tried outwards in, and no pair within radii r_i + r_j <= best remains. */
-static fs_status fixed_diameter(fs_context *ctx, const fs_space *space, const bool *fixed, double *diameter) {
-  fs_status status = FS_OK;
-  radial *point = NULL;
-  fs_vec3 centre = {0};
-  int32_t n = 0;
-  double best = 0;
-  *diameter = 0;
-  if (fixed == NULL) return FS_OK;
-  FS_ALLOC(ctx, point, space->n_vertices);
-  for (int32_t v = 0; v < space->n_vertices; v++)
-    if (fixed[v]) point[n++].position = space->start[v];
-  for (int32_t i = 0; i < n; i++) {
-    centre.x += point[i].position.x / n;
-    centre.y += point[i].position.y / n;
-    centre.z += point[i].position.z / n;
-  }
-  for (int32_t i = 0; i < n; i++) point[i].radius = distance(point[i].position, centre);
-  qsort(point, (size_t)n, sizeof *point, compare_radius);
-  for (int32_t i = 0; i < n && 2 * point[i].radius > best; i++)
-    for (int32_t j = i + 1; j < n && point[i].radius + point[j].radius > best; j++)
-      best = fmax(best, distance(point[i].position, point[j].position));
-  *diameter = best;
-done:
-  fs_release(ctx, point);
-  return status;
-}
 
 /* ---- from options to a problem ----------------------------------------------------------------------------------- */
 
 enum { NODES_SQUARE = 8, NODES_CAP = 12, MAX_NODES = 32 };
-
-static bool is_anything_fixed(const fs_space *space, const bool *fixed) {
-  for (int32_t d = 0; fixed != NULL && d < space->n_dofs; d++)
-    if (fixed[d]) return true;
-  return false;
-}
 
 static int32_t find_or_add_term(const fs_density **term, int32_t *n, const fs_density *density) {
   for (int32_t t = 0; t < *n; t++)
@@ -81,8 +32,9 @@ fs_status fs_setup_create(fs_context *ctx, const fs_space *space, const fs_fair_
   fs_status status = FS_OK;
   const fs_density *term[FS_MAX_TERMS + 2];
   int32_t square = options->n_nodes_square, cap = options->n_nodes_cap, n;
-  bool is_fixed = is_anything_fixed(space, options->fixed);
+  bool is_fixed;
   *s = (fs_setup){.functional = functional, .term_A = FS_NONE};
+  FS_TRY(fs_scale_find(ctx, space, options, c, &s->scale, &is_fixed));
   if (!is_fixed && functional->when_nothing_is_fixed != NULL) s->functional = functional->when_nothing_is_fixed;
   if (!is_fixed && !s->functional->is_scale_free)
     return fs_fail(ctx, FS_ERR_UNSUPPORTED, "nothing is fixed, and %s depends on the size or the place: fix vertices",
@@ -105,8 +57,6 @@ fs_status fs_setup_create(fs_context *ctx, const fs_space *space, const fs_fair_
   s->term_S = find_or_add_term(term, &n, &fs_density_curvature_variation);
   s->term_Q = find_or_add_term(term, &n, &fs_density_tangential);
   FS_TRY(set_params(ctx, options, s));
-  s->scale.n_squares = space->n_elements;
-  FS_TRY(fixed_diameter(ctx, space, options->fixed, &s->scale.diameter));
   FS_TRY(fs_problem_create(ctx, space, n, term, options->fixed, square, cap, c, &s->problem));
 done:
   return status;
@@ -144,6 +94,13 @@ done:
   fs_release(ctx, set_start);
   fs_release(ctx, member);
   return status;
+}
+
+void fs_setup_share(fs_setup *s, const fs_setup *from) {
+  s->reduction = from != NULL ? from->reduction : NULL;
+  s->reduced = from != NULL ? from->reduced : NULL;
+  s->x = from != NULL ? from->x : NULL;
+  s->g = from != NULL ? from->g : NULL;
 }
 
 int32_t fs_setup_n(const fs_setup *s) { return s->reduction != NULL ? s->reduction->n_columns : s->problem->n_free; }
@@ -196,7 +153,9 @@ fs_status fs_setup_measure(fs_setup *s, double *g, fs_energy *energy) {
   e.S = all[s->term_S];
   e.S_caps = caps[s->term_S];
   e.Q = all[s->term_Q];
-  for (size_t i = 0; i < 3 * (size_t)s->problem->n_free; i++) e.gradient += g[i] * g[i];
+  if (s->reduction != NULL) fs_reduction_gather(s->reduction, g, s->x);
+  for (size_t i = 0; i < 3 * (size_t)fs_setup_n(s); i++)
+    e.gradient += s->reduction != NULL ? s->x[i] * s->x[i] : g[i] * g[i];
   e.gradient = sqrt(e.gradient);
   *energy = e;
 done:

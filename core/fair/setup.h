@@ -23,6 +23,11 @@ typedef struct fs_setup {
   double *x, *g;        /* [3 n_free] with a reduction: the free dofs and their gradient */
 } fs_setup;
 
+/* The scale of the problem, and whether places are given at all: then the functional may depend on size and place, else it
+   must not. FS_ERR_UNSUPPORTED where constraints give places, but not the size. */
+fs_status fs_scale_find(fs_context *ctx, const fs_space *space, const fs_fair_options *options, const fs_vec3 *c,
+                        fs_scale *scale, bool *is_fixed);
+
 /* Chooses the functional (also by whether anything is fixed), checks options and parameters, makes the problem at c. */
 fs_status fs_setup_create(fs_context *ctx, const fs_space *space, const fs_fair_options *options,
                           const fs_functional *functional, const fs_vec3 *c, fs_setup *setup);
@@ -31,6 +36,9 @@ void fs_setup_free(fs_context *ctx, fs_setup *setup);
 /* From now on the unknowns are those of the reduction, whose rows are the free dofs of the problem; the setup owns it, also
    on failure. NULL: the free dofs again. */
 fs_status fs_setup_reduce(fs_setup *setup, fs_reduction *reduction);
+
+/* Borrows the reduction of another setup with the same free dofs; from NULL: gives it back. */
+void fs_setup_share(fs_setup *setup, const fs_setup *from);
 
 /* Groups of three unknowns, and the pattern of their Hessian. */
 int32_t fs_setup_n(const fs_setup *setup);

@@ -39,7 +39,8 @@ FS_API extern const fs_density fs_density_area;        /* sqrt(det G); length^2 
 /* What a functional may depend on besides its parameters and integrals. */
 typedef struct fs_scale {
   int32_t n_squares; /* elements of the space */
-  double diameter;   /* largest distance between two fixed control vertices (0: fewer than two) */
+  double diameter;   /* largest distance between two points of which the place is given: fixed control vertices, held
+                        points (0: fewer than two) */
 } fs_scale;
 
 /* A function of integrals. Lines of a table. */
@@ -95,10 +96,52 @@ typedef struct fs_energy {
   double gradient;     /* Euclidean norm of the gradient of F by the free dofs */
 } fs_energy;
 
+/* ---- constraints: what the surface must keep besides its fixed dofs [docs/constraints.md] ---- */
+
+/* A point of the surface that is held: its place, its tangent plane, or both. */
+typedef struct fs_hold {
+  const char *name; /* for messages: "points.txt, line 3"; NULL: its number */
+  int32_t element;
+  double u, v; /* in [0, 1] */
+  bool has_position, has_normal;
+  fs_vec3 position; /* where it must lie */
+  fs_vec3 normal;   /* of its tangent plane; any length but 0 */
+} fs_hold;
+
+/* The sum of weight * dof over its terms is a given point; or has a given component along a direction. */
+typedef struct fs_equation {
+  const char *name; /* as in fs_hold */
+  int32_t n_terms;
+  const int32_t *dof;   /* [n_terms] */
+  const double *weight; /* [n_terms] */
+  fs_vec3 direction;    /* zero: the whole point; else any length, and the sum's scalar product with it is value.x */
+  fs_vec3 value;
+} fs_equation;
+
+/* What a surface must stay near. distance is called from several threads; an upper bound of the distance will do. */
+typedef struct fs_target {
+  double (*distance)(const void *self, fs_vec3 p, fs_vec3 *nearest); /* nearest: the point at that distance */
+  const void *self;
+} fs_target;
+
+typedef enum fs_keep { FS_KEEP_NOTHING, FS_KEEP_AREA, FS_KEEP_VOLUME } fs_keep;
+
+/* All zero: none. */
+typedef struct fs_constraints {
+  int32_t n_holds, n_equations;
+  const fs_hold *hold;
+  const fs_equation *equation;
+  const fs_symmetry *symmetry; /* the dofs stay mirror images of each other; NULL: no symmetry */
+  fs_keep keep;                /* the area, or the volume: 1/3 of the integral of p . (p_u x p_v) */
+  double tolerance;            /* largest distance of a point of the surface from the target; 0: any */
+  const fs_target *target;     /* needed with a tolerance */
+} fs_constraints;
+
 typedef struct fs_fair_options {
   const fs_functional *functional;     /* NULL: the first of the table */
   const double *param;                 /* NULL: initial values of its params */
   const bool *fixed;                   /* [n_dofs], at least the rim where there is one; NULL: nothing is fixed */
+  const fs_constraints *constraints;   /* NULL: none */
   int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction; 0: 8 on squares, 12 in caps; at most 32 */
   double max_seconds;                  /* 0: no limit */
   int32_t max_iterations;              /* 0: 100; negative: none, only the energies are reported */
@@ -114,8 +157,11 @@ typedef struct fs_fair_report {
   fs_stop stop;
   int32_t n_free, n_squares, n_caps; /* free dofs (a dof is a point), elements, special vertices */
   int32_t n_free_inner;              /* those of n_free that are inner coefficients of caps */
+  int32_t n_unknowns;                /* points that remain to be chosen when constraints are met; n_free without any */
   int32_t n_steps, n_hessians, n_factorisations;
-  double c; /* weight of Q in F; 0 where the functional has no such term */
+  double distance; /* with a tolerance: the largest distance from the target that was measured at the end */
+  double kept;     /* with fs_keep: the area or the volume at the end, divided by that at the start, minus 1 */
+  double c;        /* weight of Q in F; 0 where the functional has no such term */
   fs_energy start, end;
   int32_t n_trace;
   fs_step trace[FS_MAX_TRACE]; /* the start and the first accepted steps */
