@@ -9,7 +9,7 @@
 #include <string.h>
 
 extern const fs_exporter fs_exporter_povray, fs_exporter_openscad, fs_exporter_threemf, fs_exporter_html,
-    fs_exporter_step;
+    fs_exporter_step, fs_exporter_bezierview, fs_exporter_splines;
 extern const fs_exporter fs_exporter_draco, fs_exporter_glb;
 
 const fs_exporter *const fs_exporters[] = {&fs_exporter_povray,
@@ -19,6 +19,8 @@ const fs_exporter *const fs_exporters[] = {&fs_exporter_povray,
                                            &fs_exporter_stl,
                                            &fs_exporter_openscad,
                                            &fs_exporter_step,
+                                           &fs_exporter_bezierview,
+                                           &fs_exporter_splines,
                                            &fs_exporter_glb,
 #ifdef FS_HAVE_DRACO
                                            &fs_exporter_draco,

@@ -17,6 +17,7 @@ FORBIDDEN = [  # file, line added at its end
     ("core/optimise/levenberg.c", '#include "mesh/mesh.h"'),
     ("core/fair/fair.c", "#include <fairsurf/surface.h>"),
     ("include/fairsurf/mesh.h", "#include <fairsurf/space.h>"),
+    ("include/fairsurf/surface_splines.h", "#include <fairsurf/construct_gap.h>"),
     ("exporters/povray.c", "#include <fairsurf/file.h>"),
     ("cli/main.c", '#include "mesh/mesh.h"'),
 ]

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Single role: a whole file into memory, and a control mesh from it. */
+/* Single role: a whole file into memory, and what it holds: a control mesh, a surface, splines. */
 #include "file/file.h"
 
 #include <errno.h>
@@ -86,14 +86,22 @@ static void name_path(fs_context *ctx, const char *path) {
   fs_fail(ctx, FS_OK, "%s: %s", fs_path_shown(path), sentence);
 }
 
-fs_status fs_mesh_read_notes(fs_context *ctx, const char *path, fs_mesh **mesh, fs_mesh_notes *notes) {
-  char extension[16] = "", *bytes = NULL;
+enum { EXTENSION_SIZE = 16 };
+
+/* In lower case, cut: a longer one is none we know, and its beginning is enough for the sentence. */
+static void take_extension(const char *path, char extension[EXTENSION_SIZE]) {
   const char *given = fs_path_extension(path);
+  size_t i = 0;
+  for (; given[i] != '\0' && i < EXTENSION_SIZE - 1; i++)
+    extension[i] = given[i] >= 'A' && given[i] <= 'Z' ? (char)(given[i] - 'A' + 'a') : given[i];
+  extension[i] = '\0';
+}
+
+fs_status fs_mesh_read_notes(fs_context *ctx, const char *path, fs_mesh **mesh, fs_mesh_notes *notes) {
+  char extension[EXTENSION_SIZE], *bytes = NULL;
   size_t size = 0;
   fs_status status = FS_OK;
-  /* A longer one is none we know; its beginning is enough for the sentence. */
-  for (size_t i = 0; given[i] != '\0' && i < sizeof extension - 1; i++)
-    extension[i] = given[i] >= 'A' && given[i] <= 'Z' ? (char)(given[i] - 'A' + 'a') : given[i];
+  take_extension(path, extension);
   FS_TRY(fs_file_read(ctx, path, &bytes, &size));
   status = fs_mesh_parse_notes(ctx, extension, bytes, size, mesh, notes);
   if (status != FS_OK) name_path(ctx, path);
@@ -106,5 +114,30 @@ fs_status fs_mesh_read(fs_context *ctx, const char *path, fs_mesh **mesh) {
   fs_mesh_notes notes;
   fs_status status = fs_mesh_read_notes(ctx, path, mesh, &notes);
   if (status == FS_OK) fs_mesh_notes_clear(ctx, &notes);
+  return status;
+}
+
+fs_status fs_surface_read(fs_context *ctx, const char *path, fs_surface **surface) {
+  char extension[EXTENSION_SIZE], *bytes = NULL;
+  size_t size = 0;
+  fs_status status = FS_OK;
+  take_extension(path, extension);
+  FS_TRY(fs_file_read(ctx, path, &bytes, &size));
+  status = fs_surface_parse(ctx, extension, bytes, size, surface);
+  if (status != FS_OK) name_path(ctx, path);
+done:
+  fs_file_free(ctx, bytes);
+  return status;
+}
+
+fs_status fs_splines_read(fs_context *ctx, const char *path, fs_splines **splines) {
+  char *bytes = NULL;
+  size_t size = 0;
+  fs_status status = FS_OK;
+  FS_TRY(fs_file_read(ctx, path, &bytes, &size));
+  status = fs_splines_parse(ctx, bytes, size, splines);
+  if (status != FS_OK) name_path(ctx, path);
+done:
+  fs_file_free(ctx, bytes);
   return status;
 }

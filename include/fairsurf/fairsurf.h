@@ -10,6 +10,7 @@
 #include <fairsurf/space.h>
 #include <fairsurf/fair.h>
 #include <fairsurf/surface.h>
+#include <fairsurf/surface_splines.h>
 #include <fairsurf/construct.h>
 #include <fairsurf/construct_stacho.h>
 #include <fairsurf/analyse.h>

@@ -4,6 +4,7 @@
 #define FAIRSURF_FILE_H
 
 #include <fairsurf/export.h>
+#include <fairsurf/surface_splines.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -17,6 +18,10 @@ FS_API void fs_file_free(fs_context *ctx, char *bytes);
 FS_API fs_status fs_mesh_read(fs_context *ctx, const char *path, fs_mesh **mesh);
 /* The same, and what the file says besides the polygons; notes is overwritten, for fs_mesh_notes_clear. */
 FS_API fs_status fs_mesh_read_notes(fs_context *ctx, const char *path, fs_mesh **mesh, fs_mesh_notes *notes);
+
+/* Reads a surface or splines; a surface in the format that the extension of the path says, splines from .spl. */
+FS_API fs_status fs_surface_read(fs_context *ctx, const char *path, fs_surface **surface);
+FS_API fs_status fs_splines_read(fs_context *ctx, const char *path, fs_splines **splines);
 
 /* An output that writes beside the final files (same folder, temporary names) and renames them all at the end, so that no
    half-written file is ever seen under its name. path: "dir/name.pov"; other extensions go to "dir/name.EXT". */
