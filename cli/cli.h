@@ -62,7 +62,7 @@ void note_lost_caps(fs_context *ctx, const fs_cap_notes *kept); /* by refinement
 fs_status print_info(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh, const fs_mesh_notes *notes);
 
 /* The command patch. */
-fs_status run_patch(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh);
+fs_status run_patch(fs_context *ctx, const arguments *arguments);
 
 /* marked[n_vertices] from a file of marks: one vertex number per line, counted from 0, alone or followed by "fixed" or
    "free"; # starts a comment. */

@@ -228,12 +228,12 @@ static void describe(job *j) {
 static fs_status run(job *j) {
   const arguments *a = j->arguments;
   double start = now(), then = start, t;
+  if (a->command == COMMAND_PATCH) return run_patch(j->ctx, a);
   TRY(fs_mesh_read_notes(j->ctx, a->mesh, &j->mesh, &j->notes));
   describe(j);
   j->seconds.read = (t = now()) - then, then = t;
   if (a->command == COMMAND_INFO) return print_info(j->ctx, a, j->mesh, &j->notes);
   if (a->command == COMMAND_REFINE) return run_refine(j);
-  if (a->command == COMMAND_PATCH) return run_patch(j->ctx, a, j->mesh);
   TRY(make_space(j));
   j->seconds.space = (t = now()) - then, then = t;
   if (a->command == COMMAND_FAIR)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The command patch: a surface made directly from a mesh by one of the constructions, written to files. */
+/* The command patch: a surface made directly from a mesh or splines by one of the constructions, written to files. */
 #include "cli.h"
 
 #include <stdlib.h>
@@ -76,14 +76,32 @@ static fs_status write_outputs(fs_context *ctx, const arguments *a, const fs_sur
   return FS_OK;
 }
 
-fs_status run_patch(fs_context *ctx, const arguments *a, const fs_mesh *mesh) {
+static fs_status build_from_mesh(fs_context *ctx, const arguments *a, fs_surface **surface) {
+  fs_mesh *mesh = NULL;
   fs_vec3 *normal = NULL;
-  fs_surface *surface = NULL;
-  fs_status status = read_normals(ctx, a->normals, mesh->n_vertices, &normal);
+  fs_status status = fs_mesh_read(ctx, a->mesh, &mesh);
+  if (status == FS_OK) status = read_normals(ctx, a->normals, mesh->n_vertices, &normal);
   fs_construction_input input = {.mesh = mesh, .normal = normal};
-  if (status == FS_OK) status = fs_construct(ctx, a->construction, &input, a->construction_param, &surface);
+  if (status == FS_OK) status = fs_construct(ctx, a->construction, &input, a->construction_param, surface);
+  fs_mesh_free(ctx, mesh);
+  free(normal);
+  return status;
+}
+
+static fs_status build_from_splines(fs_context *ctx, const arguments *a, fs_surface **surface) {
+  fs_splines *splines = NULL;
+  fs_status status = fs_splines_read(ctx, a->mesh, &splines);
+  fs_construction_input input = {.splines = splines};
+  if (status == FS_OK) status = fs_construct(ctx, a->construction, &input, a->construction_param, surface);
+  fs_splines_free(ctx, splines);
+  return status;
+}
+
+fs_status run_patch(fs_context *ctx, const arguments *a) {
+  fs_surface *surface = NULL;
+  fs_status status = a->construction->takes == FS_TAKES_SPLINES ? build_from_splines(ctx, a, &surface)
+                                                                : build_from_mesh(ctx, a, &surface);
   if (status == FS_OK) status = write_outputs(ctx, a, surface);
   fs_surface_free(ctx, surface);
-  free(normal);
   return status;
 }

@@ -155,7 +155,6 @@ done:
 /* ---- the line of the table ---- */
 
 static fs_status build(fs_context *ctx, const fs_construction_input *input, const double *param, fs_surface **surface) {
-  if (input->mesh == NULL) return fs_fail(ctx, FS_ERR_ARGUMENT, "Gregory patches need a mesh");
   return fs_gregory_create(ctx, input->mesh, input->normal, (fs_edge_rule)param[0], surface);
 }
 
@@ -163,8 +162,6 @@ static const char *const rules[] = {"arc", "pn", "wm", NULL};
 static const fs_param params[] = {{"edge-rule", "rule for the cubics over edges", FS_EDGE_ARC, 0, 2, rules}, {0}};
 
 const fs_construction fs_construction_gregory = {
-    "gregory",
-    "G1 surface through vertices and normals of a mesh, a patch per triangle or quad",
-    params,
+    "gregory", "G1 surface through vertices and normals of a mesh, a patch per triangle or quad", FS_TAKES_MESH, params,
     build,
 };

@@ -5,6 +5,7 @@
 
 #include <fairsurf/mesh.h>
 #include <fairsurf/surface.h>
+#include <fairsurf/surface_splines.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,15 +17,19 @@ extern "C" {
 typedef struct fs_construction_input {
   const fs_mesh *mesh;
   const fs_vec3 *normal; /* [n_vertices] of the mesh, unit vectors to the outside; NULL: fs_vertex_normals */
+  const fs_splines *splines;
 } fs_construction_input;
+
+typedef enum fs_construction_takes { FS_TAKES_MESH, FS_TAKES_SPLINES } fs_construction_takes;
 
 /* A construction. Lines of a table. */
 typedef struct fs_construction {
   const char *name, *summary;
+  fs_construction_takes takes; /* the part of the input that must be there */
   const fs_param *params;
   fs_status (*build)(fs_context *ctx, const fs_construction_input *input, const double *param, fs_surface **surface);
 } fs_construction;
-FS_API extern const fs_construction *const fs_constructions[];        /* ends with NULL: gregory */
+FS_API extern const fs_construction *const fs_constructions[];        /* ends with NULL: gregory, stacho, … */
 FS_API const fs_construction *fs_construction_find(const char *name); /* NULL: unknown */
 
 /* Builds with param, or the initial values of the construction's params where param is NULL. */

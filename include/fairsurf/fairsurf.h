@@ -13,6 +13,8 @@
 #include <fairsurf/surface_splines.h>
 #include <fairsurf/construct.h>
 #include <fairsurf/construct_stacho.h>
+#include <fairsurf/construct_junction.h>
+#include <fairsurf/construct_gap.h>
 #include <fairsurf/analyse.h>
 #include <fairsurf/export.h>
 #include <fairsurf/file.h>
