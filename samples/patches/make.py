@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Makes the files of this folder: triangle meshes, and patches in the text formats of docs/formats: make.py FOLDER."""
+import math
+import pathlib
+import random
+import sys
+
+GOLDEN = (1 + math.sqrt(5)) / 2
+
+
+def rounded(x):
+    return f"{x:.6f}".rstrip("0").rstrip(".").replace("-0", "0") if abs(x) < 5e-7 else f"{x:.6f}".rstrip("0").rstrip(".")
+
+
+def point(p):
+    return " ".join(rounded(x) for x in p)
+
+
+def obj(vertices, triangles, comment):
+    lines = [f"# {comment}"] + [f"v {point(p)}" for p in vertices]
+    return "\n".join(lines + ["f " + " ".join(str(i + 1) for i in t) for t in triangles]) + "\n"
+
+
+# ---- triangle meshes ----
+
+ICOSAHEDRON = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6),
+               (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10),
+               (8, 6, 7), (9, 8, 1)]
+
+
+def blob():
+    """An icosahedron, its vertices moved in and out, lengthened along x."""
+    g, r = GOLDEN, math.hypot(1, GOLDEN)
+    sphere = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g), (0, 1, -g), (g, 0, -1),
+              (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
+    scale = [1.15, 0.9, 1, 1.2, 0.85, 1.1, 0.95, 1.05, 1.2, 0.9, 1, 1.1]
+    return obj([(1.4 * s * x / r, s * y / r, s * z / r) for s, (x, y, z) in zip(scale, sphere)], ICOSAHEDRON,
+               "a closed triangle mesh for --construction stacho")
+
+
+def hills():
+    """Heights over a jittered triangulation of a rectangle."""
+    numbers, n, m = random.Random(7), 7, 5
+    vertices, triangles = [], []
+    for j in range(m + 1):
+        for i in range(n + 1):
+            x = i + (numbers.uniform(-0.25, 0.25) if 0 < i < n else 0)
+            y = j + (numbers.uniform(-0.25, 0.25) if 0 < j < m else 0)
+            vertices.append((x, y, 0.45 * math.sin(0.9 * x) * math.cos(0.8 * y) + 0.1 * x))
+    for j in range(m):
+        for i in range(n):
+            a = i + (n + 1) * j
+            b, c, d = a + 1, a + n + 2, a + n + 1
+            triangles += [(a, b, c), (a, c, d)] if numbers.random() < 0.5 else [(a, b, d), (b, c, d)]
+    return obj(vertices, triangles, "heights over the (x, y) plane for --construction stacho-graph")
+
+
+# ---- splines ----
+
+def spline(kind, name, degrees, knots, coefficients):
+    lines = [f"{kind} {name}", "degree " + " ".join(str(d) for d in degrees)]
+    lines += ["knots " + " ".join(rounded(x) for x in k) for k in knots]
+    lines += ["values " + " ".join(rounded(x) for x in coefficients)] if kind == "function" else \
+        ["points"] + [point(p) for p in coefficients]
+    return "\n".join(lines) + "\n"
+
+
+def greville(knots, degree):
+    return [sum(knots[i + 1:i + degree + 1]) / degree for i in range(len(knots) - degree - 1)]
+
+
+def gap():
+    """Two sheets with a gap between them; their knots by v differ, and r has a double knot."""
+    u, vq, vr = [0, 0, 0, 0, 0.5, 1, 1, 1, 1], [0, 0, 0, 0, 0.3, 0.6, 1, 1, 1, 1], [0, 0, 0, 0, 0.45, 0.7, 0.7, 1, 1, 1, 1]
+    q = [(-3.2 + 0.5 * i * (1 + 0.2 * y), 3.2 * y, 0.25 * math.sin(4 * y) + 0.1 * i * (1.2 - y) + 0.02 * i * i)
+         for y in greville(vq, 3) for i in range(5)]
+    r = [(0.9 + 0.5 * y + 0.55 * i * (1 - 0.2 * y), 3.2 * y + 0.2, 1.1 + 0.3 * y * y - 0.14 * i - 0.02 * i * i)
+         for y in greville(vr, 3) for i in range(5)]
+    return "fairsurf-splines 1\n# for --construction gap\n\n" + spline("patch", "q", (3, 3), (u, vq), q) + "\n" + \
+        spline("patch", "r", (3, 3), (u, vr), r)
+
+
+def pair():
+    """An auxiliary strip over a bent edge, and junction functions of both sides."""
+    aux = [(3 * i, 1.5 * j, 0.7 * math.sin(1.1 * i) - 0.2 * j * j + 0.06 * i * j) for j in range(3) for i in range(4)]
+    text = "fairsurf-splines 1\n# for --construction junction\n\n" + spline("patch", "aux", (3, 2), (), aux)
+    functions = {"beta1-a": (0.05, 0.1, -0.08), "gamma1-a": (1.2, 0.8, 1.1), "beta2-a": (0.1, -0.1),
+                 "gamma2-a": (-0.2, 0.1), "beta1-b": (-0.05, 0.1, 0.05), "gamma1-b": (-0.9, -1.2, -0.8),
+                 "gamma2-b": (0.1, 0.05)}
+    return text + "".join("\n" + spline("function", name, (len(c) - 1,), (), c) for name, c in functions.items())
+
+
+# ---- BezierView ----
+
+def roof():
+    """A bicubic patch, a patch of degree (2, 3) beside it, and a cubic triangle at its end: kinds 4, 5 and 3."""
+    def height(x, y):
+        return 0.4 * math.sin(1.1 * x) + 0.25 * y * y - 0.1 * x * y
+    cubic = [(i, j, height(i, j)) for i in range(4) for j in range(4)]
+    beside = [(3 + 1.2 * i, j, height(3 + 1.2 * i, j) if i else height(3, j)) for i in range(3) for j in range(4)]
+    triangle = [(3 - i - j / 2, 3 + j, height(3 - i - j / 2, 3 + j)) for j in range(4) for i in range(4 - j)]
+    text = "Group 0 roof\n4\n3\n" + "\n".join(point(p) for p in cubic)
+    text += "\n5\n2 3\n" + "\n".join(point(p) for p in beside)
+    # its first side runs along the end of the bicubic patch the other way
+    return text + "\n3\n3\n" + "\n".join(point(p) for p in turn(triangle)) + "\n"
+
+
+def turn(rows):
+    """Rows of a cubic triangle from right to left become rows from left to right."""
+    out, start = [], 0
+    for length in (4, 3, 2, 1):
+        out += rows[start:start + length][::-1]
+        start += length
+    return out
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    for name, make in (("blob.obj", blob), ("hills.obj", hills), ("gap.spl", gap), ("pair.spl", pair), ("roof.bv", roof)):
+        (folder / name).write_text(make(), encoding="ascii")
+        print(name)
+
+
+if __name__ == "__main__":
+    main()
