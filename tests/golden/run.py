@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-MESHES = HERE / ".." / ".." / "samples" / "meshes"
+SAMPLES = HERE / ".." / ".." / "samples"
 RELATIVE, ABSOLUTE = 1e-6, 1e-7
 NUMBER = re.compile(r"(?<![\w.])([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
 SECONDS = re.compile(r"\d+\.\d+ s\b")  # the only output that depends on the machine
@@ -44,8 +44,8 @@ def section(title, data):
 def run_case(fairsurf, words):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for mesh in MESHES.glob("*.obj"):
-            shutil.copy(mesh, folder)
+        for sample in [*SAMPLES.glob("meshes/*.obj"), *SAMPLES.glob("patches/*.[obs][bvp]*")]:
+            shutil.copy(sample, folder)
         before = {path.name for path in folder.iterdir()}
         result = subprocess.run([fairsurf, *words], cwd=folder, capture_output=True, check=False, timeout=300)
         parts = [f"$ fairsurf {' '.join(words)}\nexit {result.returncode}\n"]

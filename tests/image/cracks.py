@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Looks for cracks of a rendered sample: cracks.py --fairsurf EXE --crack EXE --out FOLDER [--red] MESH.obj
+"""Looks for cracks of a rendered sample: cracks.py --fairsurf EXE --crack EXE --out FOLDER [--red] FILE [COMMAND...]
 
+The file is a mesh, or what the command reads; the command, with its options, is export unless given.
 Six views, side by side in one picture, without antialiasing: three from around, three that belong to the first special
-vertex of the mesh: along its normal, and low along two of its spokes. The bicubic form is compared with triangles from
+vertex of the mesh: along its normal, and low along two of its spokes (three fixed ones where the file is no OBJ). The bicubic form is compared with triangles from
 64 x 64 cells per patch; what counts as a crack is said in crack.c. The inside of the surface has a colour of its own, so
 that a crack shows even where there is more surface behind it.
 With --red one shared edge of a patch is moved by 1e-3 of the size, and a crack must be found.
@@ -44,6 +45,9 @@ def unit(a):
     return scale(1 / math.hypot(*a), a)
 
 
+AROUND = [unit((2.3, -2.9, 2.3)), unit((-2, 1.2, 0.9)), unit((0.3, 0.4, -1))]
+
+
 def special_vertex(faces):
     """The first interior vertex of valence other than 4, and its neighbours; 0 and its neighbours where there is none."""
     edges = {}
@@ -70,7 +74,7 @@ def directions(points, faces):
     for w in (neighbours[0], neighbours[len(neighbours) // 2]):
         spoke = unit(subtract(points[v], points[w]))
         low.append(unit(add(spoke, scale(0.5, normal))))
-    return [unit((2.3, -2.9, 2.3)), unit((-2, 1.2, 0.9)), unit((0.3, 0.4, -1)), normal, *low]
+    return [*AROUND, normal, *low]
 
 
 def rotation_to_view(towards):
@@ -130,7 +134,8 @@ def make_picture(arguments, form, steps, views):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     extra = ["--pov-steps", str(steps)] if steps else []
-    render.run([arguments.fairsurf, "export", arguments.mesh, "--pov", form, *extra, "--name", "sample", "-o",
+    command, *options = arguments.command or ["export"]
+    render.run([arguments.fairsurf, command, arguments.mesh, *options, "--pov", form, *extra, "--name", "sample", "-o",
                 folder / "sample.pov"], folder, folder / "fairsurf.log")
     inc = folder / "sample.inc"
     if arguments.red and form == "bicubic":
@@ -153,11 +158,15 @@ def main():
     parser.add_argument("--steps", type=int, default=6, help="the fine form has 2^steps x 2^steps cells per patch")
     parser.add_argument("--red", action="store_true")
     parser.add_argument("mesh", type=pathlib.Path)
+    parser.add_argument("command", nargs=argparse.REMAINDER)
     arguments = parser.parse_args()
     for path in ("fairsurf", "crack", "out", "mesh"):
         setattr(arguments, path, getattr(arguments, path).resolve())
     render.need_povray()
-    views = directions(*render.read_obj(arguments.mesh))
+    if arguments.mesh.suffix == ".obj":
+        views = directions(*render.read_obj(arguments.mesh))
+    else:
+        views = AROUND + [unit((0, 0, 1)), unit((1, 1, 0.4)), unit((-1, -0.5, 0.5))]
     picture = make_picture(arguments, "bicubic", 0, views)
     fine = make_picture(arguments, "mesh2", arguments.steps, views)
     result = subprocess.run([arguments.crack, picture, fine, arguments.out / "cracks.png"],
