@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: Wavefront OBJ. A control net keeps its polygons and reads back with the same doubles; a surface becomes
    triangles with the exact normals at their corners. */
+#include "caps_json.h"
 #include "writer.h"
+
+enum { STEPS, CAPS_FILE };
 
 static void write_net(fs_writer *writer, const fs_mesh *mesh) {
   for (int32_t v = 0; v < mesh->n_vertices; v++) {
@@ -46,7 +49,7 @@ static fs_status write(fs_context *ctx, const fs_model *model, const double *par
   fs_triangles *triangles = NULL;
   fs_writer writer;
   fs_status status = FS_OK;
-  if (model->surface != NULL) status = fs_tessellate(ctx, model->surface, (int32_t)param[0], &triangles);
+  if (model->surface != NULL) status = fs_tessellate(ctx, model->surface, (int32_t)param[STEPS], &triangles);
   if (status != FS_OK) return status;
   fs_writer_start(&writer, ctx, output, "obj");
   fs_writer_text(&writer, "# ");
@@ -54,11 +57,13 @@ static fs_status write(fs_context *ctx, const fs_model *model, const double *par
   fs_writer_text(&writer, "\no ");
   fs_writer_line_text(&writer, model->name);
   fs_writer_text(&writer, "\n");
+  if (triangles == NULL) fs_caps_json_comment(&writer, model, param[CAPS_FILE] == 1);
   if (triangles != NULL)
     write_triangles(&writer, triangles);
   else
     write_net(&writer, model->control);
   status = fs_writer_finish(&writer);
+  if (status == FS_OK && triangles == NULL) status = fs_caps_json_write(ctx, model, param[CAPS_FILE] == 1, output);
   fs_triangles_free(ctx, triangles);
   return status;
 }
@@ -67,7 +72,7 @@ const fs_exporter fs_exporter_obj = {
     .name = "obj",
     .extension = "obj",
     .summary = "Wavefront OBJ: the control net with its polygons, or the surface as triangles with normals",
-    .params = (const fs_param[]){FS_PARAM_STEPS, {.name = NULL}},
+    .params = (const fs_param[]){FS_PARAM_STEPS, FS_PARAM_CAPS_FILE, {.name = NULL}},
     .what = FS_EXPORT_BOTH,
     .write = write,
 };

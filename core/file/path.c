@@ -23,3 +23,9 @@ fs_status fs_fail_file(fs_context *ctx, const char *verb, const char *path, int 
   return fs_fail(ctx, FS_ERR_IO, "cannot %s %s: %s", verb, fs_path_shown(path),
                  strerror_r(error_number, text, sizeof text));
 }
+
+void fs_fail_named(fs_context *ctx, const char *path) {
+  char sentence[sizeof ctx->message];
+  memcpy(sentence, ctx->message, sizeof sentence);
+  fs_fail(ctx, FS_OK, "%s: %s", fs_path_shown(path), sentence);
+}

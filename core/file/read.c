@@ -79,13 +79,6 @@ done:
 
 void fs_file_free(fs_context *ctx, char *bytes) { fs_release(ctx, bytes); }
 
-/* Puts the path before the sentence that is there. */
-static void name_path(fs_context *ctx, const char *path) {
-  char sentence[sizeof ctx->message];
-  memcpy(sentence, ctx->message, sizeof sentence);
-  fs_fail(ctx, FS_OK, "%s: %s", fs_path_shown(path), sentence);
-}
-
 enum { EXTENSION_SIZE = 16 };
 
 /* In lower case, cut: a longer one is none we know, and its beginning is enough for the sentence. */
@@ -97,25 +90,43 @@ static void take_extension(const char *path, char extension[EXTENSION_SIZE]) {
   extension[i] = '\0';
 }
 
-fs_status fs_mesh_read_notes(fs_context *ctx, const char *path, fs_mesh **mesh, fs_mesh_notes *notes) {
+static bool has_own_notes(const char *extension) {
+  for (const fs_reader *const *reader = fs_readers; *reader != NULL; reader++)
+    if (strcmp((*reader)->extension, extension) == 0) return (*reader)->parse_notes != NULL;
+  return false;
+}
+
+/* notes may be NULL: then nothing else is looked at. */
+static fs_status read_mesh(fs_context *ctx, const char *path, fs_mesh **mesh, fs_mesh_notes *notes) {
   char extension[EXTENSION_SIZE], *bytes = NULL;
   size_t size = 0;
+  fs_mesh *made = NULL;
+  fs_mesh_notes found = {0};
   fs_status status = FS_OK;
   take_extension(path, extension);
   FS_TRY(fs_file_read(ctx, path, &bytes, &size));
-  status = fs_mesh_parse_notes(ctx, extension, bytes, size, mesh, notes);
-  if (status != FS_OK) name_path(ctx, path);
+  status = fs_mesh_parse_notes(ctx, extension, bytes, size, &made, notes != NULL ? &found : NULL);
+  if (status != FS_OK) {
+    fs_fail_named(ctx, path);
+    goto done;
+  }
+  if (notes != NULL && !has_own_notes(extension)) FS_TRY(fs_file_read_caps(ctx, path, made, &found.caps));
+  *mesh = made;
+  if (notes != NULL) *notes = found;
+  made = NULL;
+  found = (fs_mesh_notes){0};
 done:
+  fs_mesh_free(ctx, made);
+  fs_mesh_notes_clear(ctx, &found);
   fs_file_free(ctx, bytes);
   return status;
 }
 
-fs_status fs_mesh_read(fs_context *ctx, const char *path, fs_mesh **mesh) {
-  fs_mesh_notes notes;
-  fs_status status = fs_mesh_read_notes(ctx, path, mesh, &notes);
-  if (status == FS_OK) fs_mesh_notes_clear(ctx, &notes);
-  return status;
+fs_status fs_mesh_read_notes(fs_context *ctx, const char *path, fs_mesh **mesh, fs_mesh_notes *notes) {
+  return read_mesh(ctx, path, mesh, notes);
 }
+
+fs_status fs_mesh_read(fs_context *ctx, const char *path, fs_mesh **mesh) { return read_mesh(ctx, path, mesh, NULL); }
 
 fs_status fs_surface_read(fs_context *ctx, const char *path, fs_surface **surface) {
   char extension[EXTENSION_SIZE], *bytes = NULL;
@@ -124,7 +135,7 @@ fs_status fs_surface_read(fs_context *ctx, const char *path, fs_surface **surfac
   take_extension(path, extension);
   FS_TRY(fs_file_read(ctx, path, &bytes, &size));
   status = fs_surface_parse(ctx, extension, bytes, size, surface);
-  if (status != FS_OK) name_path(ctx, path);
+  if (status != FS_OK) fs_fail_named(ctx, path);
 done:
   fs_file_free(ctx, bytes);
   return status;
@@ -136,7 +147,7 @@ fs_status fs_splines_read(fs_context *ctx, const char *path, fs_splines **spline
   fs_status status = FS_OK;
   FS_TRY(fs_file_read(ctx, path, &bytes, &size));
   status = fs_splines_parse(ctx, bytes, size, splines);
-  if (status != FS_OK) name_path(ctx, path);
+  if (status != FS_OK) fs_fail_named(ctx, path);
 done:
   fs_file_free(ctx, bytes);
   return status;

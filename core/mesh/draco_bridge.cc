@@ -73,7 +73,13 @@ void fill(draco::Mesh &mesh, const fs_draco_geometry &g) {
   }
   if (g.n_entries > 0) {
     auto metadata = std::make_unique<draco::GeometryMetadata>();
-    for (int32_t i = 0; i < g.n_entries; i++) metadata->AddEntryString(g.entry[i].key, g.entry[i].text);
+    for (int32_t i = 0; i < g.n_entries; i++) {
+      const fs_draco_entry &e = g.entry[i];
+      if (e.size > 0)
+        metadata->AddEntryBinary(e.key, std::vector<uint8_t>(e.text, e.text + e.size));
+      else
+        metadata->AddEntryString(e.key, e.text);
+    }
     mesh.AddMetadata(std::move(metadata));
   }
 }

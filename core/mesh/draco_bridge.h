@@ -27,6 +27,7 @@ typedef struct fs_draco_attribute {
 
 typedef struct fs_draco_entry {
   const char *key, *text; /* at most 255 bytes of key */
+  size_t size;            /* of text as bytes; 0: it ends with a zero byte */
 } fs_draco_entry;
 
 typedef struct fs_draco_geometry {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: Draco files as control meshes: triangles, joined to polygons where a corner attribute keeps them, and the
-   marks and texts that a control net brings along. */
+   marks, texts and inner coefficients of caps that a control net brings along. */
 #include "mesh/draco_bridge.h"
 #include "mesh/draco_polygons.h"
 
@@ -142,6 +142,9 @@ static fs_status read_notes(drc *d, fs_mesh_notes *notes) {
     long n = strtol(refinements, NULL, 10);
     notes->n_refinements = n > 0 && n < INT16_MAX ? (int32_t)n : 0;
   }
+  FS_TRY(fs_draco_read_caps(
+      ctx, &(fs_draco_triangles){d->draco, d->n_points, d->n_triangles, d->point, d->corner, d->is_added},
+      &notes->caps));
   FS_TRY(read_marks(d, FS_DRACO_FIXED, &of_point));
   if (of_point == NULL) goto done;
   FS_ALLOC(ctx, notes->fixed, d->polygons.n_vertices);
@@ -177,5 +180,5 @@ static fs_status parse(fs_context *ctx, const char *bytes, size_t size, fs_mesh 
   return parse_notes(ctx, bytes, size, mesh, NULL);
 }
 
-const fs_reader fs_reader_drc = {"drc", "drc", "Draco: control nets with their polygons and marks, or triangles", parse,
-                                 parse_notes};
+const fs_reader fs_reader_drc = {"drc", "drc", "Draco: control nets with their polygons, marks and caps, or triangles",
+                                 parse, parse_notes};

@@ -16,7 +16,8 @@ FS_API void fs_file_free(fs_context *ctx, char *bytes);
 
 /* Reads a control mesh; the format follows the extension of the path, whatever its case. */
 FS_API fs_status fs_mesh_read(fs_context *ctx, const char *path, fs_mesh **mesh);
-/* The same, and what the file says besides the polygons; notes is overwritten, for fs_mesh_notes_clear. */
+/* The same, and what the file says besides the polygons. Beside formats that keep nothing else, inner coefficients of caps
+   come from NAME.caps.json, if there is one and it was written for this net. notes is overwritten, for fs_mesh_notes_clear. */
 FS_API fs_status fs_mesh_read_notes(fs_context *ctx, const char *path, fs_mesh **mesh, fs_mesh_notes *notes);
 
 /* Reads a surface or splines; a surface in the format that the extension of the path says, splines from .spl. */

@@ -137,8 +137,8 @@ static void check_triangles_read_back(const fs_surface *surface, const char *ext
 static void test_surfaces_read_back(void **state) {
   fs_surface *surface = sample_torus(6, 5, every_fifth, 0.01);
   (void)state;
-  check_triangles_read_back(surface, "obj", (const double[]){3});
-  check_triangles_read_back(surface, "off", (const double[]){3});
+  check_triangles_read_back(surface, "obj", (const double[]){3, 1});
+  check_triangles_read_back(surface, "off", (const double[]){3, 1});
   check_triangles_read_back(surface, "ply", (const double[]){3, 0});
   check_triangles_read_back(surface, "ply", (const double[]){2, 1});
   sample_free(surface);
@@ -148,7 +148,7 @@ static void test_surfaces_read_back(void **state) {
 static void test_normals_are_written(void **state) {
   fs_surface *surface = sample_torus(4, 4, NULL, 0);
   memory_file ply = export_surface(surface, "ply", (const double[]){2, 0});
-  memory_file obj = export_surface(surface, "obj", (const double[]){2});
+  memory_file obj = export_surface(surface, "obj", (const double[]){2, 1});
   fs_triangles *t = triangles_of(surface, 2);
   const char *at = strstr(ply.bytes, "end_header\n") + strlen("end_header\n");
   const char *line = strstr(obj.bytes, "vn ");
