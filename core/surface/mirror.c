@@ -49,7 +49,7 @@ fs_status fs_surface_mirror(fs_context *ctx, const fs_symmetry *s, fs_surface *s
   for (int32_t i = 0; i < surface->n_patches; i++) {
     const fs_patch *patch = &surface->patch[i], *image = &surface->patch[s->element[i]];
     bool is_turned = s->side[i] % 2 == 1;
-    if (patch->kind != FS_PATCH_TENSOR_BEZIER || image->kind != patch->kind ||
+    if (!fs_patch_is_tensor_bezier(patch) || !fs_patch_is_tensor_bezier(image) ||
         image->degree_u != (is_turned ? patch->degree_v : patch->degree_u) ||
         image->degree_v != (is_turned ? patch->degree_u : patch->degree_v))
       return fs_fail(ctx, FS_ERR_ARGUMENT, "patch %d and its image, patch %d, differ in kind", i, s->element[i]);

@@ -131,6 +131,28 @@ FS_API void fs_surface_hermite_bicubics(const fs_surface *surface, int32_t patch
 FS_API fs_status fs_surface_hermite_depth(fs_context *ctx, const fs_surface *surface, int32_t patch, double tolerance,
                                           int32_t max_m, int32_t *m, double *deviation);
 
+/* Finds nearest points of a surface, or of the polygons of a mesh. Made once; any number of threads may ask. */
+typedef struct fs_nearest fs_nearest;
+typedef struct fs_near {
+  fs_vec3 position;
+  double distance;
+  int32_t patch; /* of the surface; or the face of the mesh */
+  double u, v;   /* parameters of the patch; 0 on a mesh */
+} fs_near;
+
+/* The surface is borrowed and must outlive it. FS_ERR_NUMERIC where a patch has points that are not finite. */
+FS_API fs_status fs_nearest_create(fs_context *ctx, const fs_surface *surface, fs_nearest **nearest);
+/* Faces are cut into triangles from their first vertices. The mesh is not kept. */
+FS_API fs_status fs_nearest_create_for_mesh(fs_context *ctx, const fs_mesh *mesh, fs_nearest **nearest);
+FS_API void fs_nearest_free(fs_context *ctx, fs_nearest *nearest); /* NULL is allowed */
+
+/* A nearest point to p. On a surface: a point of least distance among its neighbours, found from the nearest of 32 triangles
+   per patch, so that the distance may exceed the least one where patches bend strongly; it is never below it. */
+FS_API void fs_nearest_find(const fs_nearest *nearest, fs_vec3 p, fs_near *near);
+
+/* The same as fs_target of fair.h asks: self is an fs_nearest. */
+FS_API double fs_nearest_distance(const void *self, fs_vec3 p, fs_vec3 *position);
+
 #ifdef __cplusplus
 }
 #endif
