@@ -2,7 +2,8 @@
 /* The HTML exporter: one page that works from a file, without a network. It holds the control net as base64 of
    little-endian numbers and makes the surface from it, by the core of this library as WebAssembly (web/).
    Layout of the net: float64 position[vertices][3], float64 offset[offsets][3], int32 face_start[faces + 1],
-   int32 corner[corners]. Offsets are the inner coefficients of caps; a control net alone has none. */
+   int32 corner[corners], int32 cap[caps][4]. Offsets are the inner coefficients of caps, cap by cap; each cap has its vertex,
+   spoke, valence and number of coefficients. A control net alone has none. */
 #include "html.h"
 #include "base/base.h"
 #include "math/vec3.h"
@@ -30,7 +31,8 @@ static fs_status check(fs_context *ctx, const fs_model *model) {
   fs_space *space = NULL;
   fs_surface *surface = NULL;
   double size = 0;
-  FS_TRY(fs_space_create(ctx, model->control, &space));
+  const fs_space_options options = {.caps = model->caps != NULL ? FS_CAPS_FULL : FS_CAPS_LINEAR, .kept = model->caps};
+  FS_TRY(fs_space_create_with(ctx, model->control, &options, &space));
   if (model->surface == NULL) goto done;
   FS_TRY(fs_surface_create(ctx, space, space->start, &surface));
   for (size_t i = 0; i < surface->n_data; i++) size = fmax(size, fabs(surface->data[i]));
@@ -47,22 +49,39 @@ static void write_piece(fs_writer *writer, int32_t number) {
   fs_writer_bytes(writer, fs_html_piece[number], fs_html_piece_size[number]);
 }
 
+static void write_points(fs_writer *writer, fs_base64 *base64, int32_t n, const fs_vec3 *point) {
+  for (int32_t i = 0; i < n; i++) {
+    fs_base64_float64(base64, writer, point[i].x);
+    fs_base64_float64(base64, writer, point[i].y);
+    fs_base64_float64(base64, writer, point[i].z);
+  }
+}
+
 static void write_net(fs_writer *writer, const fs_model *model, int32_t scene) {
+  static const fs_cap_notes none = {0};
   const fs_mesh *net = model->control;
+  const fs_cap_notes *caps = model->caps != NULL ? model->caps : &none;
   fs_base64 base64 = {0};
+  int32_t n_offsets = 0;
+  for (int32_t i = 0; i < caps->n_caps; i++) n_offsets += caps->cap[i].n;
   fs_writer_printf(writer,
                    "<script type=\"text/plain\" id=\"net\" data-vertices=\"%d\" data-faces=\"%d\" data-corners=\"%d\" "
-                   "data-caps=\"0\" data-offsets=\"0\" data-scene=\"%d\" data-made-with=\"",
-                   (int)net->n_vertices, (int)net->n_faces, (int)net->n_halfedges, (int)scene);
+                   "data-caps=\"%d\" data-offsets=\"%d\" data-scene=\"%d\" data-made-with=\"",
+                   (int)net->n_vertices, (int)net->n_faces, (int)net->n_halfedges, (int)caps->n_caps, (int)n_offsets,
+                   (int)scene);
   fs_html_write_text(writer, model->made_with != NULL ? model->made_with : "");
   fs_writer_text(writer, "\">");
-  for (int32_t v = 0; v < net->n_vertices; v++) {
-    fs_base64_float64(&base64, writer, net->position[v].x);
-    fs_base64_float64(&base64, writer, net->position[v].y);
-    fs_base64_float64(&base64, writer, net->position[v].z);
-  }
+  write_points(writer, &base64, net->n_vertices, net->position);
+  for (int32_t i = 0; i < caps->n_caps; i++)
+    write_points(writer, &base64, caps->cap[i].n, caps->coefficient + caps->cap[i].first);
   for (int32_t f = 0; f <= net->n_faces; f++) fs_base64_int32(&base64, writer, net->face_start[f]);
   for (int32_t h = 0; h < net->n_halfedges; h++) fs_base64_int32(&base64, writer, net->origin[h]);
+  for (int32_t i = 0; i < caps->n_caps; i++) {
+    fs_base64_int32(&base64, writer, caps->cap[i].vertex);
+    fs_base64_int32(&base64, writer, caps->cap[i].spoke);
+    fs_base64_int32(&base64, writer, caps->cap[i].valence);
+    fs_base64_int32(&base64, writer, caps->cap[i].n);
+  }
   fs_base64_finish(&base64, writer);
   fs_writer_text(writer, "</script>");
 }

@@ -35,33 +35,53 @@ EXPORT("page_create") web_page *web_page_create(void) { return web_allocate(size
 
 EXPORT("page_message") const char *web_page_message(const web_page *page) { return page->ctx.message; }
 
-static fs_status take_offsets(web_page *page, const fs_space *space, int32_t n_offsets, const fs_vec3 *offset,
-                              fs_vec3 *c) {
-  if (space->n_dofs - space->n_vertices != n_offsets)
-    return fs_fail(&page->ctx, FS_ERR_FORMAT, "the page holds %d inner coefficients of caps, its net needs %d",
-                   (int)n_offsets, (int)(space->n_dofs - space->n_vertices));
-  for (int32_t i = 0; i < space->n_vertices; i++) c[i] = space->start[i];
-  for (int32_t i = 0; i < n_offsets; i++) c[space->n_vertices + i] = offset[i];
-  return FS_OK;
+/* What the page holds of a cap. */
+typedef struct web_cap {
+  int32_t vertex, spoke, valence, n;
+} web_cap;
+
+/* NULL where there are no caps. The coefficients lie one after the other, cap by cap. */
+static fs_status take_caps(web_page *page, int32_t n_caps, const web_cap *cap, int32_t n_offsets, const fs_vec3 *offset,
+                           fs_cap_notes **result) {
+  fs_status status = FS_OK;
+  fs_cap_notes *notes = NULL;
+  int32_t first = 0;
+  if (n_caps == 0 && n_offsets == 0) return FS_OK;
+  FS_TRY(fs_cap_notes_create(&page->ctx, n_caps, n_offsets, &notes));
+  for (int32_t i = 0; i < n_offsets; i++) notes->coefficient[i] = offset[i];
+  for (int32_t i = 0; i < n_caps; i++) {
+    notes->cap[i] = (fs_cap_note){cap[i].vertex, cap[i].spoke, cap[i].valence, first, cap[i].n};
+    if (cap[i].n < 0 || cap[i].n > n_offsets - first) break;
+    first += cap[i].n;
+  }
+  if (first != n_offsets) {
+    status = fs_fail(&page->ctx, FS_ERR_FORMAT,
+                     "the page holds %d inner coefficients of caps, but its caps need others", (int)n_offsets);
+    goto done;
+  }
+  *result = notes;
+  notes = NULL;
+done:
+  fs_cap_notes_free(&page->ctx, notes);
+  return status;
 }
 
-/* Makes the surface of the net; caps is one of fs_cap_inner, offset[n_offsets] are the dofs behind those of the vertices. */
+/* Makes the surface of the net with the inner coefficients offset[n_offsets] of its caps. */
 EXPORT("page_open")
 fs_status web_page_open(web_page *page, int32_t n_vertices, const fs_vec3 *position, int32_t n_faces,
-                        const int32_t *face_start, const int32_t *corner, int32_t caps, int32_t n_offsets,
-                        const fs_vec3 *offset) {
+                        const int32_t *face_start, const int32_t *corner, int32_t n_caps, const web_cap *cap,
+                        int32_t n_offsets, const fs_vec3 *offset) {
   fs_status status;
   fs_mesh *mesh = NULL;
   fs_space *space = NULL;
-  fs_vec3 *c = NULL;
-  fs_space_options options = {.caps = (fs_cap_inner)caps};
+  fs_cap_notes *notes = NULL;
   FS_TRY(fs_mesh_create(&page->ctx, n_vertices, position, n_faces, face_start, corner, &mesh));
+  FS_TRY(take_caps(page, n_caps, cap, n_offsets, offset, &notes));
+  const fs_space_options options = {.caps = notes != NULL ? FS_CAPS_FULL : FS_CAPS_LINEAR, .kept = notes};
   FS_TRY(fs_space_create_with(&page->ctx, mesh, &options, &space));
-  FS_ALLOC(&page->ctx, c, space->n_dofs);
-  FS_TRY(take_offsets(page, space, n_offsets, offset, c));
-  FS_TRY(fs_surface_create(&page->ctx, space, c, &page->surface));
+  FS_TRY(fs_surface_create(&page->ctx, space, space->start, &page->surface));
 done:
-  fs_release(&page->ctx, c);
+  fs_cap_notes_free(&page->ctx, notes);
   fs_space_free(&page->ctx, space);
   fs_mesh_free(&page->ctx, mesh);
   fs_context_clear(&page->ctx);

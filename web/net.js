@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Single role: reads the control net that the exporter wrote into the page. The element's text is base64 of, all of it
-// little-endian: float64 position[vertices][3], float64 offset[offsets][3], int32 faceStart[faces + 1], int32 corner[corners].
+// little-endian: float64 position[vertices][3], float64 offset[offsets][3], int32 faceStart[faces + 1], int32 corner[corners],
+// int32 cap[caps][4].
 
 export function decodeBase64(text) {
   const binary = atob(text.trim());
@@ -13,12 +14,13 @@ export function readNet(element) {
   const count = (name) => Number(element.dataset[name]);
   const net = {
     nVertices: count('vertices'), nFaces: count('faces'), nCorners: count('corners'), nOffsets: count('offsets'),
-    caps: count('caps'), bytes: decodeBase64(element.textContent),
+    nCaps: count('caps'), bytes: decodeBase64(element.textContent),
   };
   net.offsetAt = 24 * net.nVertices;
   net.faceStartAt = net.offsetAt + 24 * net.nOffsets;
   net.cornerAt = net.faceStartAt + 4 * (net.nFaces + 1);
-  if (net.bytes.length !== net.cornerAt + 4 * net.nCorners) throw new Error('The control net of this page is damaged.');
+  net.capAt = net.cornerAt + 4 * net.nCorners;
+  if (net.bytes.length !== net.capAt + 16 * net.nCaps) throw new Error('The control net of this page is damaged.');
   net.position = new Float64Array(net.bytes.buffer, 0, 3 * net.nVertices);
   net.faceStart = new Int32Array(net.bytes.buffer, net.faceStartAt, net.nFaces + 1);
   net.corner = new Int32Array(net.bytes.buffer, net.cornerAt, net.nCorners);

@@ -19,8 +19,8 @@ export async function openSurface(wasm, net) {
   const block = core.allocate(net.bytes.length);
   if (page === 0 || block === 0) throw new Error('There is not enough memory for this surface.');
   new Uint8Array(core.memory.buffer, block, net.bytes.length).set(net.bytes);
-  check(core.page_open(page, net.nVertices, block, net.nFaces, block + net.faceStartAt, block + net.cornerAt, net.caps,
-    net.nOffsets, block + net.offsetAt));
+  check(core.page_open(page, net.nVertices, block, net.nFaces, block + net.faceStartAt, block + net.cornerAt, net.nCaps,
+    block + net.capAt, net.nOffsets, block + net.offsetAt));
   core.release(block);
 
   return {

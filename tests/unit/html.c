@@ -122,6 +122,41 @@ static void test_page_holds_the_net_bit_by_bit(void **state) {
   fs_mesh_free(&ctx, net);
 }
 
+/* Inner coefficients of caps stand behind the positions, and what they belong to at the end. */
+static void test_page_holds_the_caps(void **state) {
+  fs_context ctx = test_context();
+  fs_mesh *net = test_star(5, 4);
+  memory_output file = {0};
+  fs_space *space = NULL;
+  fs_surface *surface = NULL;
+  fs_cap_notes *caps = NULL;
+  unsigned char *bytes;
+  size_t size, n_position = (size_t)net->n_vertices * 24, n_offset = 101 * 24;
+  int32_t cap[4];
+  (void)state;
+  assert_int_equal(fs_space_create_with(&ctx, net, &(fs_space_options){.caps = FS_CAPS_FULL}, &space), FS_OK);
+  for (int32_t d = space->n_vertices; d < space->n_dofs; d++) space->start[d].z = 0.01 * (d % 7 - 3);
+  assert_int_equal(fs_space_keep_caps(&ctx, net, space, space->start, &caps), FS_OK);
+  assert_int_equal(fs_surface_create(&ctx, space, space->start, &surface), FS_OK);
+  fs_model model = {.name = "net", .control = net, .surface = surface};
+  assert_int_equal(export_page(&ctx, &model, &file), FS_ERR_UNSUPPORTED); /* without the caps another surface */
+  model.caps = caps;
+  assert_int_equal(export_page(&ctx, &model, &file), FS_OK);
+  assert_non_null(strstr(file.bytes, " data-caps=\"1\" data-offsets=\"101\" "));
+  bytes = decode(strstr(strstr(file.bytes, " data-caps="), "\">") + 2, &size);
+  assert_int_equal(size, n_position + n_offset + ((size_t)net->n_faces + 1 + (size_t)net->n_halfedges + 4) * 4);
+  assert_memory_equal(bytes + n_position, space->start + net->n_vertices, n_offset);
+  memcpy(cap, bytes + size - sizeof cap, sizeof cap);
+  assert_true(cap[0] == 0 && cap[1] == caps->cap->spoke && cap[2] == 5 && cap[3] == 101);
+  free(bytes);
+  free(file.bytes);
+  fs_cap_notes_free(&ctx, caps);
+  fs_surface_free(&ctx, surface);
+  fs_space_free(&ctx, space);
+  fs_mesh_free(&ctx, net);
+  fs_context_clear(&ctx);
+}
+
 /* The page knows the net only, so a surface of other dofs must not pass for it. */
 static void test_only_surfaces_of_the_net_are_taken(void **state) {
   fs_context ctx = test_context();
@@ -217,6 +252,7 @@ int main(void) {
       cmocka_unit_test(test_text_is_escaped_and_valid_utf8),
       cmocka_unit_test(test_base64_has_the_values_of_its_standard),
       cmocka_unit_test(test_page_holds_the_net_bit_by_bit),
+      cmocka_unit_test(test_page_holds_the_caps),
       cmocka_unit_test(test_only_surfaces_of_the_net_are_taken),
       cmocka_unit_test(test_nets_without_a_surface_are_refused),
       cmocka_unit_test(test_outputs_that_fail_are_reported),

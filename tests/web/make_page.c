@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Writes a page for the browser tests, and what the library says about the same net, as JSON on standard output: how the
    surface bends at 100 vertices of its triangles. Usage: make_page MESH OUT.html STEPS ITERATIONS
-   ITERATIONS: of fairing; 0: the net as it is. Numbers are those of the measures, which the page does not use. */
+   ITERATIONS: of fairing, with full caps; 0: the net as it is, with linear ones. Numbers are those of the measures, which the page does not use. */
 #include <fairsurf/fairsurf.h>
 
 #include <math.h>
@@ -19,6 +19,7 @@ typedef struct job {
   fs_surface *surface;
   fs_triangles *triangles;
   fs_vec3 *c;
+  fs_cap_notes *caps;
   bool *fixed;
 } job;
 
@@ -34,7 +35,8 @@ static fs_status make(fs_context *ctx, job *j, const char *path, int32_t n_steps
   TRY(fs_mesh_read(ctx, path, &j->mesh));
   TRY(fs_space_prepare(ctx, j->mesh, 0, j->step, &j->n_steps));
   fine = j->n_steps > 0 ? j->step[j->n_steps - 1]->mesh : j->mesh;
-  TRY(fs_space_create(ctx, fine, &j->space));
+  TRY(fs_space_create_with(ctx, fine, &(fs_space_options){.caps = n_iterations > 0 ? FS_CAPS_FULL : FS_CAPS_LINEAR},
+                           &j->space));
   j->c = malloc((size_t)j->space->n_dofs * sizeof *j->c);
   j->fixed = calloc((size_t)j->space->n_dofs, sizeof *j->fixed);
   if (j->c == NULL || j->fixed == NULL) return FS_ERR_MEMORY;
@@ -47,6 +49,7 @@ static fs_status make(fs_context *ctx, job *j, const char *path, int32_t n_steps
   }
   TRY(fs_mesh_copy(ctx, fine, &j->control));
   memcpy(j->control->position, j->c, (size_t)j->control->n_vertices * sizeof *j->c);
+  TRY(fs_space_keep_caps(ctx, j->control, j->space, j->c, &j->caps));
   TRY(fs_surface_create(ctx, j->space, j->c, &j->surface));
   return fs_tessellate(ctx, j->surface, n_steps, &j->triangles);
 }
@@ -65,8 +68,8 @@ static void print_points(const job *j) {
     fs_surface_evaluate(j->surface, t->vertex_patch[v], t->vertex_uv[2 * v], t->vertex_uv[2 * v + 1], x);
     largest = fmax(largest, fmax(fabs(measure("maximum", x)), fabs(measure("minimum", x))));
   }
-  printf("{\"vertices\": %d, \"triangles\": %d, \"largest\": %.17g, \"points\": [", t->n_vertices, t->n_triangles,
-         largest);
+  printf("{\"vertices\": %d, \"triangles\": %d, \"coefficients\": %d, \"largest\": %.17g, \"points\": [", t->n_vertices,
+         t->n_triangles, j->caps != NULL ? j->caps->n_coefficients : 0, largest);
   for (int32_t k = 0; k < N_POINTS; k++) {
     int32_t v = (int32_t)((int64_t)k * (t->n_vertices - 1) / (N_POINTS - 1));
     fs_vec3 p = t->position[v], n = t->normal[v];
@@ -87,13 +90,14 @@ int main(int argc, char **argv) {
   if (argc != 5) return fprintf(stderr, "usage: %s MESH OUT.html STEPS ITERATIONS\n", argv[0]), 2;
   status = make(&ctx, &j, argv[1], atoi(argv[3]), atoi(argv[4]));
   if (status == FS_OK) {
-    fs_model model = {.control = j.control, .surface = j.surface, .made_with = "make_page"};
+    fs_model model = {.control = j.control, .surface = j.surface, .caps = j.caps, .made_with = "make_page"};
     status = fs_export_file(&ctx, &model, NULL, argv[2]);
   }
   if (status == FS_OK)
     print_points(&j);
   else
     fprintf(stderr, "%s\n", ctx.message[0] != '\0' ? ctx.message : fs_status_text(status));
+  fs_cap_notes_free(&ctx, j.caps);
   fs_triangles_free(&ctx, j.triangles);
   fs_surface_free(&ctx, j.surface);
   fs_space_free(&ctx, j.space);

@@ -9,13 +9,14 @@ async function chooseSteps(page, n) {
   await settle(page);
 }
 
-/* 100 vertices: positions, normals and four curvatures, to 1e-5 of the largest principal curvature (its square for K). */
+/* Nets as they are, and faired ones whose caps have inner coefficients. 100 vertices: positions, normals and four curvatures, to 1e-5 of the largest principal curvature (its square for K). */
 export async function curvature(tools) {
   await withBrowser(tools, {}, async (context) => {
     for (const [mesh, steps, iterations] of [['pipe', 5, 2], ['genus2', 4, 0], ['hull', 6, 0], ['star7', 8, 2]]) {
       const { path, facts } = makePage(tools, mesh, String(steps), String(iterations));
       const { page, ready, complaints } = await openPage(context, path);
       ensure(ready === 'yes', `the page of ${mesh} did not draw: ${complaints.join('; ')}`);
+      ensure((facts.coefficients > 0) === (iterations > 0), `${mesh}: ${facts.coefficients} inner coefficients of caps`);
       await chooseSteps(page, steps);
       const shown = await page.evaluate((vertices) => {
         const { triangles: t } = globalThis.fairsurf;
@@ -38,7 +39,8 @@ export async function curvature(tools) {
             worst[what] = Number.isNaN(difference) ? Infinity : Math.max(worst[what], difference);
           });
       });
-      console.log(`${mesh}: ${facts.points.length} points, largest principal curvature ${facts.largest.toPrecision(5)};`,
+      console.log(`${mesh}: ${facts.points.length} points, ${facts.coefficients} inner coefficients,`,
+        `largest principal curvature ${facts.largest.toPrecision(5)};`,
         `differences: position ${worst.position.toExponential(1)}, normal ${worst.normal.toExponential(1)},`,
         `curvature ${worst.curvature.toExponential(1)} of it`);
       ensure(facts.points.length === 100, 'there are not 100 points');

@@ -112,7 +112,13 @@ export async function refusal(tools) {
       bytes.writeInt32LE(1 << 20, bytes.length - 4);
       return tag + bytes.toString('base64');
     })), 'error', 'vertex');
-    await expect(context, write('caps', text.replace('data-caps="0"', 'data-caps="1"')), 'error', 'inner coefficients');
+    const withCap = text.replace('data-caps="0"', 'data-caps="1"');
+    await expect(context, write('few', withCap), 'error', 'damaged');
+    await expect(context, write('caps', withCap.replace(/(id="net"[^>]*>)([^<]*)/, (_, tag, net) => {
+      const cap = Buffer.alloc(16); /* vertex 0, valence 3, no coefficients; its spoke is the vertex itself */
+      cap.writeInt32LE(3, 8);
+      return tag + Buffer.concat([Buffer.from(net, 'base64'), cap]).toString('base64');
+    })), 'error', 'the cap at vertex 0');
   });
   const blind = ['--no-sandbox', '--disable-gpu', '--disable-3d-apis', '--disable-background-networking'];
   await withBrowser(tools, { args: blind }, async (context) => {
