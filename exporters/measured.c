@@ -17,6 +17,10 @@ fs_status fs_measure_vertices(fs_context *ctx, const fs_surface *surface, const 
   for (size_t k = 0; k < n_params; k++) param[k] = measure->params[k].initial;
   for (int32_t k = 0; k < t->n_vertices; k++) {
     const double *uv = t->vertex_uv + 2 * (size_t)k;
+    if (measure->at != NULL) {
+      value[k] = measure->at(measure->user, t->vertex_patch[k], uv[0], uv[1]);
+      continue;
+    }
     fs_surface_evaluate(surface, t->vertex_patch[k], uv[0], uv[1], x);
     value[k] = measure->value(param, x);
   }

@@ -43,12 +43,14 @@ static double minimum(const double *param, const fs_vec3 *x) {
   return principal.minimum;
 }
 
+#define MEASURE(name, summary, value) \
+  { name, summary, no_params, value, NULL, NULL }
 static const fs_measure table[] = {
-    {"mean", "mean curvature (k1 + k2) / 2, positive where the surface bends to its outside", no_params, mean},
-    {"gaussian", "Gaussian curvature k1 k2", no_params, gaussian},
-    {"gradient", "length of the gradient of the mean curvature along the surface", no_params, gradient},
-    {"maximum", "larger principal curvature", no_params, maximum},
-    {"minimum", "smaller principal curvature", no_params, minimum},
+    MEASURE("mean", "mean curvature (k1 + k2) / 2, positive where the surface bends to its outside", mean),
+    MEASURE("gaussian", "Gaussian curvature k1 k2", gaussian),
+    MEASURE("gradient", "length of the gradient of the mean curvature along the surface", gradient),
+    MEASURE("maximum", "larger principal curvature", maximum),
+    MEASURE("minimum", "smaller principal curvature", minimum),
 };
 
 const fs_measure *const fs_measures[] = {&table[0], &table[1], &table[2], &table[3], &table[4], NULL};

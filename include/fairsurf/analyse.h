@@ -14,6 +14,9 @@ typedef struct fs_measure {
   const char *name, *summary;
   const fs_param *params;
   double (*value)(const double *param, const fs_vec3 x[FS_JET_SIZE]);
+  /* NULL, or instead of value: that of a point of one surface, of measures that belong to it and stand in no table. */
+  double (*at)(const void *user, int32_t patch, double u, double v);
+  const void *user;
 } fs_measure;
 FS_API extern const fs_measure *const fs_measures[];        /* ends with NULL: mean, gaussian, gradient, … */
 FS_API const fs_measure *fs_measure_find(const char *name); /* NULL: unknown */
@@ -185,6 +188,37 @@ FS_API void fs_continuity_free(fs_context *ctx, fs_continuity *continuity); /* N
    most tolerance, relative jumps of curvature, and jumps of its gradient in relation to curvature_scale^2, of at most
    tolerance. An irregular point breaks G1. */
 FS_API bool fs_continuity_passes(const fs_continuity *continuity, int32_t order, double tolerance);
+
+/* The jumps as colours for exporters: log10 of the largest jump of the edge at a side of a patch (curvature relative), which
+   fades to -16 towards its middle. Sides of the border are like the middle. Valid as long as the colours and the surface. */
+typedef struct fs_jump_colours {
+  fs_measure measure; /* for fs_model.colour */
+  const fs_surface *surface;
+  double (*side)[4]; /* [n_patches] */
+} fs_jump_colours;
+FS_API fs_status fs_jump_colours_create(fs_context *ctx, const fs_surface *surface, const fs_edges *edges,
+                                        const fs_continuity *continuity, fs_jump jump, fs_jump_colours **colours);
+FS_API void fs_jump_colours_free(fs_context *ctx, fs_jump_colours *colours); /* NULL is allowed */
+
+/* ---- self-intersections --------------------------------------------------------------------------------------------- */
+
+/* Two places of a surface at one point. */
+typedef struct fs_crossing {
+  fs_place place[2];
+  fs_vec3 point;
+} fs_crossing;
+typedef struct fs_crossings {
+  int32_t n;             /* pairs of patches that cross, and patches that cross themselves */
+  int32_t n_listed;      /* of them, the first max_listed */
+  fs_crossing *crossing; /* [n_listed] a place of each */
+} fs_crossings;
+
+/* Where a surface meets itself. Candidates are pairs of triangles of n_steps x n_steps cells per patch (0: 8 for up to
+   10 000 patches, else 4) without a common vertex that cut each other; Newton's method then finds a common point of the patches
+   themselves, so that coarse triangles give no false alarm; what is smaller than a triangle may be missed. */
+FS_API fs_status fs_crossings_find(fs_context *ctx, const fs_surface *surface, const fs_edges *edges, int32_t n_steps,
+                                   int32_t max_listed, fs_crossings **crossings);
+FS_API void fs_crossings_free(fs_context *ctx, fs_crossings *crossings); /* NULL is allowed */
 
 #ifdef __cplusplus
 }

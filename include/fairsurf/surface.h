@@ -107,7 +107,8 @@ typedef struct fs_triangles {
 } fs_triangles;
 
 /* n_steps parts per side: n_steps x n_steps quadrilaterals per patch, each split along its shorter diagonal, or
-   n_steps x n_steps triangles in a patch of three sides; n_steps >= 1.
+   n_steps x n_steps triangles in a patch of three sides; n_steps >= 1. They come patch by patch, and in it row by row of
+   cells, rows along u.
    FS_ERR_ARGUMENT when the counts would leave int32_t. */
 FS_API fs_status fs_tessellate(fs_context *ctx, const fs_surface *surface, int32_t n_steps, fs_triangles **triangles);
 FS_API void fs_triangles_free(fs_context *ctx, fs_triangles *triangles); /* NULL is allowed */

@@ -155,7 +155,7 @@ static double height(const double *param, const fs_vec3 x[FS_JET_SIZE]) {
   (void)param;
   return x[FS_D].x < 0 ? (double)NAN : x[FS_D].z;
 }
-static const fs_measure measure = {"height", "z, where x is positive", NULL, height};
+static const fs_measure measure = {"height", "z, where x is positive", NULL, height, NULL, NULL};
 
 static void test_measure_in_ply(void **state) {
   sample s = make_sample();
