@@ -89,6 +89,17 @@ FS_API fs_status fs_surface_validate(fs_context *ctx, const fs_surface *surface)
 /* Position and derivatives up to order 3 of a patch at (u, v): x[FS_JET_SIZE]. */
 FS_API void fs_surface_evaluate(const fs_surface *surface, int32_t patch, double u, double v, fs_vec3 *x);
 
+/* The same at many points of one patch, several times faster for bicubic tensor Bezier patches and Gregory quads of degree
+   (3, 3); values agree to rounding, which depends on the processor. order: 0 .. 3. out[(3 k + c) n + i]: coordinate c of
+   derivative k, 1, 3, 6 or FS_JET_SIZE of them, at point i. */
+FS_API void fs_surface_evaluate_points(const fs_surface *surface, int32_t patch, int32_t order, size_t n,
+                                       const double *u, const double *v, double *out);
+
+/* Position, unit normal, mean and Gaussian curvature: out[8][n], the rows x, y, z, the normal's x, y, z, H, K. The last five
+   are NaN where p_u x p_v = 0. */
+FS_API void fs_surface_bend_points(const fs_surface *surface, int32_t patch, size_t n, const double *u, const double *v,
+                                   double *out);
+
 /* (u, v) of the point at parameter t in [0, 1] of a side of a patch of 3 or 4 sides, t running anticlockwise. */
 FS_API void fs_side_parameters(int32_t n_sides, int32_t side, double t, double *u, double *v);
 

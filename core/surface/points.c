@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/* Single role: a patch at many points: by the kernels of the best instruction set where they know its kind, else point by
+   point. */
+#include "surface/points.h"
+#include "surface/surface.h"
+
+#define DECLARE(suffix)                                                                                                \
+  void fs_points_quad##suffix(const double *, int, int32_t, size_t, const double *, const double *, size_t, double *); \
+  void fs_points_bend##suffix(size_t, size_t, const double *, size_t, double *);                                       \
+  static const fs_points_kernels kernels##suffix = {&#suffix[1], fs_points_quad##suffix, fs_points_bend##suffix};
+
+DECLARE(_base)
+#ifdef FS_HAVE_X86_KERNELS
+DECLARE(_avx2)
+DECLARE(_avx512)
+#endif
+
+int32_t fs_points_kernels_all(const fs_points_kernels *all[3]) {
+  int32_t n = 0;
+#ifdef FS_HAVE_X86_KERNELS
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) all[n++] = &kernels_avx512;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) all[n++] = &kernels_avx2;
+#endif
+  all[n++] = &kernels_base;
+  return n;
+}
+
+static const fs_points_kernels *choose(void) {
+  const fs_points_kernels *all[3];
+  fs_points_kernels_all(all);
+  return all[0];
+}
+
+static bool has_kernel(const fs_patch *patch, int32_t order) {
+  return (patch->kind == FS_PATCH_TENSOR_BEZIER || patch->kind == FS_PATCH_GREGORY_QUAD) && patch->part == 0 &&
+         patch->degree_u == 3 && patch->degree_v == 3 && order <= 2;
+}
+
+void fs_surface_evaluate_points(const fs_surface *surface, int32_t patch, int32_t order, size_t n, const double *u,
+                                const double *v, double *out) {
+  static const int n_derivatives[4] = {1, 3, 6, FS_JET_SIZE};
+  const fs_patch *p = &surface->patch[patch];
+  fs_vec3 x[FS_JET_SIZE];
+  order = order < 0 ? 0 : order > 3 ? 3 : order;
+  if (has_kernel(p, order)) {
+    choose()->quad(surface->data + p->data_start, p->kind == FS_PATCH_GREGORY_QUAD, order, n, u, v, n, out);
+    return;
+  }
+  for (size_t i = 0; i < n; i++) {
+    fs_surface_evaluate(surface, patch, u[i], v[i], x);
+    for (int k = 0; k < n_derivatives[order]; k++) {
+      double *to = out + 3 * (size_t)k * n + i;
+      to[0] = x[k].x, to[n] = x[k].y, to[2 * n] = x[k].z;
+    }
+  }
+}
+
+void fs_surface_bend_points(const fs_surface *surface, int32_t patch, size_t n, const double *u, const double *v,
+                            double *out) {
+  enum { BLOCK = 64 };
+  const fs_points_kernels *kernels = choose();
+  double jets[18 * BLOCK];
+  for (size_t i = 0; i < n; i += BLOCK) {
+    size_t count = n - i < BLOCK ? n - i : BLOCK;
+    fs_surface_evaluate_points(surface, patch, 2, count, u + i, v + i, jets);
+    kernels->bend(count, count, jets, n, out + i);
+  }
+}

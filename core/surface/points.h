@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/* The inner loops of evaluation at many points, compiled once per instruction set. */
+#ifndef FS_SURFACE_POINTS_H
+#define FS_SURFACE_POINTS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct fs_points_kernels {
+  const char *name;
+  /* Bicubic points [16][3] and, where is_gregory, four more; order 0 .. 2; out[1, 3 or 6][3][stride]. */
+  void (*quad)(const double *point, int is_gregory, int32_t order, size_t n, const double *u, const double *v,
+               size_t stride, double *out);
+  /* jets[6][3][stride_in] of n points to out[8][stride], as fs_surface_bend_points. */
+  void (*bend)(size_t n, size_t stride_in, const double *jets, size_t stride, double *out);
+} fs_points_kernels;
+
+/* Those that this processor can run, the best first; returns their number. */
+int32_t fs_points_kernels_all(const fs_points_kernels *all[3]);
+
+#endif
