@@ -168,9 +168,11 @@ static fs_status run_course(course *c, const fs_space *space) {
   fs_status status = FS_OK;
   fs_problem *p = c->setup.problem;
   const fs_constraints *constraints = c->options->constraints;
-  double area = c->setup.term_A != FS_NONE ? c->report->start.integral[c->setup.term_A] : 0;
+  bool is_scale_free = c->setup.functional->is_scale_free;
+  double size = 0, size_now = 0;
   fs_energy begin = c->report->start;
   FS_TRY(fs_solver_create(c->ctx, fs_setup_pattern(&c->setup), &c->solver));
+  if (is_scale_free) FS_TRY(fs_setup_size(&c->setup, &size)); /* of the start as it was given */
   fs_setup_place(&c->setup, c->x);
   if (c->options->start_triharmonic) FS_TRY(begin_triharmonic(c, space));
   if (c->options->start_triharmonic || c->setup.reduction != NULL) FS_TRY(fs_setup_measure(&c->setup, c->g, &begin));
@@ -179,8 +181,10 @@ static fs_status run_course(course *c, const fs_space *space) {
   FS_TRY(run_stages(c));
   FS_TRY(fs_problem_set_level(p, 0));
   fs_setup_place(&c->setup, c->x);
-  if (c->setup.functional->is_scale_free) FS_TRY(fs_setup_restore_area(&c->setup, area));
+  if (is_scale_free) FS_TRY(fs_setup_restore_size(&c->setup, size));
   if (constraints != NULL && constraints->symmetry != NULL) fs_symmetry_apply(constraints->symmetry, p->c);
+  if (is_scale_free) FS_TRY(fs_setup_size(&c->setup, &size_now));
+  c->report->kept = is_scale_free ? size_now / size - 1 : 0;
   FS_TRY(fs_setup_measure(&c->setup, c->g, &c->report->end));
 done:
   fs_solver_free(c->ctx, c->solver);

@@ -58,6 +58,7 @@ fs_status fs_setup_create(fs_context *ctx, const fs_space *space, const fs_fair_
   s->term_Q = find_or_add_term(term, &n, &fs_density_tangential);
   FS_TRY(set_params(ctx, options, s));
   FS_TRY(fs_problem_create(ctx, space, n, term, options->fixed, square, cap, c, &s->problem));
+  if (options->constraints != NULL && options->constraints->keep == FS_KEEP_VOLUME) FS_TRY(fs_setup_keep_volume(s));
 done:
   return status;
 }
@@ -67,11 +68,13 @@ void fs_setup_free(fs_context *ctx, fs_setup *s) {
   fs_sparse_free(ctx, s->reduced);
   fs_release(ctx, s->x);
   fs_release(ctx, s->g);
+  fs_volume_free(s->volume);
   fs_problem_free(ctx, s->problem);
   s->problem = NULL;
   s->reduction = NULL;
   s->reduced = NULL;
   s->x = s->g = NULL;
+  s->volume = NULL;
 }
 
 /* ---- fewer unknowns ---------------------------------------------------------------------------------------------- */
@@ -120,22 +123,41 @@ double fs_setup_c(const fs_setup *s) { return s->term_Q < s->functional->n_terms
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
+/* integral[term_A] becomes what stands for it; the weight of the volume, the derivative of the functional by it, follows
+   from that of the area, which becomes 0. */
+static void put_volume(const fs_setup *s, double volume, double *integral) {
+  double size = s->volume_sign * volume;
+  integral[s->term_A] = size > 0 ? s->volume_factor * cbrt(size * size) : NAN;
+}
+static double take_weight(fs_setup *s, double volume) {
+  double by_area = s->problem->weight[s->term_A];
+  s->problem->weight[s->term_A] = 0;
+  return s->volume_sign * by_area * s->volume_factor * 2 / 3 / cbrt(s->volume_sign * volume);
+}
+
 /* The functional at problem->c with the derivatives asked for. Where its derivatives by the integrals depend on the integrals,
    these are computed first. Second derivatives by the integrals are left out of the Hessian: for a functional that is free of
-   scale they vanish on steps that keep the area. */
+   scale they vanish on steps that keep the area, or the volume that stands for it. */
 static fs_status evaluate(fs_setup *s, fs_order order, double *integral, double *caps, double *f, double *g,
                           fs_sparse *hessian) {
   fs_status status = FS_OK;
-  double unused[FS_MAX_TERMS + 2];
+  double unused[FS_MAX_TERMS + 2], volume = 0, by_volume = 0, area;
+  if (s->volume != NULL) FS_TRY(fs_volume_evaluate(s->volume, FS_VALUE, 0, &volume, NULL, NULL));
   if (order > FS_VALUE && !s->functional->is_linear) {
     FS_TRY(fs_problem_evaluate(s->problem, FS_VALUE, integral, NULL, NULL, NULL));
+    if (s->volume != NULL) put_volume(s, volume, integral);
     s->functional->combine(s->param, &s->scale, integral, f, s->problem->weight);
+    if (s->volume != NULL) by_volume = take_weight(s, volume);
   } else if (s->functional->is_linear) {
     memset(unused, 0, sizeof unused);
     s->functional->combine(s->param, &s->scale, unused, f, s->problem->weight);
   }
   FS_TRY(fs_problem_evaluate(s->problem, order, integral, caps, g, hessian));
+  if (s->volume != NULL && order > FS_VALUE) FS_TRY(fs_volume_evaluate(s->volume, order, by_volume, NULL, g, hessian));
+  area = s->volume != NULL ? integral[s->term_A] : 0;
+  if (s->volume != NULL) put_volume(s, volume, integral);
   s->functional->combine(s->param, &s->scale, integral, f, unused);
+  if (s->volume != NULL) integral[s->term_A] = area;
 done:
   return status;
 }
@@ -189,19 +211,24 @@ static fs_status hessian(void *self, const double *x, double *f, double *g, fs_s
   return at(self, FS_HESSIAN, x, f, g, h);
 }
 
-/* The gradient of the area alone. */
+/* The gradient of the area alone, or of the volume. */
 static fs_status normal(void *self, const double *x, double *v) {
   fs_setup *s = self;
   fs_problem *p = s->problem;
-  double kept[FS_MAX_TERMS + 2];
+  double kept[FS_MAX_TERMS + 2], *g = s->reduction != NULL ? s->g : v;
   fs_status status;
-  memcpy(kept, p->weight, sizeof kept);
-  memset(p->weight, 0, sizeof p->weight);
-  p->weight[s->term_A] = 1;
   fs_setup_place(s, x);
-  status = fs_problem_evaluate(p, FS_GRADIENT, NULL, NULL, s->reduction != NULL ? s->g : v, NULL);
+  if (s->volume != NULL) {
+    memset(g, 0, 3 * (size_t)p->n_free * sizeof *g);
+    status = fs_volume_evaluate(s->volume, FS_GRADIENT, 1, NULL, g, NULL);
+  } else {
+    memcpy(kept, p->weight, sizeof kept);
+    memset(p->weight, 0, sizeof p->weight);
+    p->weight[s->term_A] = 1;
+    status = fs_problem_evaluate(p, FS_GRADIENT, NULL, NULL, g, NULL);
+    memcpy(p->weight, kept, sizeof kept);
+  }
   if (s->reduction != NULL) fs_reduction_gather(s->reduction, s->g, v);
-  memcpy(p->weight, kept, sizeof kept);
   return status;
 }
 
@@ -213,27 +240,4 @@ fs_objective fs_setup_objective(fs_setup *s, fs_solver *solver) {
                         .gradient = gradient,
                         .hessian = hessian,
                         .normal = s->functional->is_scale_free ? normal : NULL};
-}
-
-fs_status fs_setup_restore_area(fs_setup *s, double area) {
-  fs_status status = FS_OK;
-  fs_problem *p = s->problem;
-  const fs_space *space = p->space;
-  double integral[FS_MAX_TERMS + 2], factor;
-  fs_vec3 centre = {0};
-  FS_TRY(fs_problem_evaluate(p, FS_VALUE, integral, NULL, NULL, NULL));
-  factor = sqrt(area / integral[s->term_A]);
-  for (int32_t v = 0; v < space->n_vertices; v++) {
-    centre.x += p->c[v].x / space->n_vertices;
-    centre.y += p->c[v].y / space->n_vertices;
-    centre.z += p->c[v].z / space->n_vertices;
-  }
-  for (int32_t d = 0; d < space->n_dofs; d++) { /* dofs beyond the vertices are offsets */
-    fs_vec3 o = d < space->n_vertices ? centre : (fs_vec3){0};
-    p->c[d].x = o.x + factor * (p->c[d].x - o.x);
-    p->c[d].y = o.y + factor * (p->c[d].y - o.y);
-    p->c[d].z = o.z + factor * (p->c[d].z - o.z);
-  }
-done:
-  return status;
 }

@@ -5,6 +5,7 @@
 
 #include "fair/problem.h"
 #include "fair/reduce.h"
+#include "fair/volume.h"
 #include "optimise/minimise.h"
 
 enum { FS_MAX_FUNCTIONAL_PARAMS = 8 };
@@ -20,7 +21,9 @@ typedef struct fs_setup {
   int32_t
       n_cheap_hessians; /* so many Hessians are integrated with few nodes, although the functional sees all: near enough
                                for steps that are corrected by gradients */
-  double *x, *g;        /* [3 n_free] with a reduction: the free dofs and their gradient */
+  fs_volume *volume; /* where it is kept, V^(2/3) times volume_factor stands for the area in the functional; or NULL */
+  double volume_sign, volume_factor;
+  double *x, *g; /* [3 n_free] with a reduction: the free dofs and their gradient */
 } fs_setup;
 
 /* The scale of the problem, and whether places are given at all: then the functional may depend on size and place, else it
@@ -53,8 +56,14 @@ fs_status fs_setup_measure(fs_setup *setup, double *g, fs_energy *energy);
 /* The setup as an objective for fs_minimise; solver may be NULL where only values are wanted. */
 fs_objective fs_setup_objective(fs_setup *setup, fs_solver *solver);
 
-/* Scales the surface at problem->c about its centre of vertices so that its area is this again. */
-fs_status fs_setup_restore_area(fs_setup *setup, double area);
+/* Keeps the volume at problem->c instead of the area. */
+fs_status fs_setup_keep_volume(fs_setup *setup);
+
+/* The area at problem->c, with more nodes than the functional has; or the volume where that is kept. */
+fs_status fs_setup_size(fs_setup *setup, double *size);
+
+/* Scales the surface at problem->c about its centre of vertices so that its area or volume is this again. */
+fs_status fs_setup_restore_size(fs_setup *setup, double size);
 
 /* Weight of Q in the functional at problem->c. */
 double fs_setup_c(const fs_setup *setup);

@@ -132,7 +132,8 @@ typedef struct fs_constraints {
   const fs_hold *hold;
   const fs_equation *equation;
   const fs_symmetry *symmetry; /* the dofs stay mirror images of each other; NULL: no symmetry */
-  fs_keep keep;                /* the area, or the volume: 1/3 of the integral of p . (p_u x p_v) */
+  fs_keep keep;                /* of a surface of which no places are given: its area, as without constraints, or
+                                  its volume, 1/3 of the integral of p . (p_u x p_v) */
   double tolerance;            /* largest distance of a point of the surface from the target; 0: any */
   const fs_target *target;     /* needed with a tolerance */
 } fs_constraints;
@@ -160,8 +161,8 @@ typedef struct fs_fair_report {
   int32_t n_unknowns;                /* points that remain to be chosen when constraints are met; n_free without any */
   int32_t n_steps, n_hessians, n_factorisations;
   double distance; /* with a tolerance: the largest distance from the target that was measured at the end */
-  double kept;     /* with fs_keep: the area or the volume at the end, divided by that at the start, minus 1 */
-  double c;        /* weight of Q in F; 0 where the functional has no such term */
+  double kept; /* where nothing is fixed: the area or the volume at the end, divided by that at the start, minus 1 */
+  double c;    /* weight of Q in F; 0 where the functional has no such term */
   fs_energy start, end;
   int32_t n_trace;
   fs_step trace[FS_MAX_TRACE]; /* the start and the first accepted steps */
