@@ -31,6 +31,8 @@ fs_status fs_bspline_refine(fs_context *ctx, const fs_knots *from, int32_t width
   int32_t p = from->degree, n = from->n;
   double *U = NULL, *points = NULL;
   size_t w = (size_t)width;
+  if (to->n < n || to->degree != p)
+    return fs_fail(ctx, FS_ERR_ARGUMENT, "the finer knots do not hold all of the coarser ones");
   FS_ALLOC(ctx, U, to->n + p + 1);
   FS_ALLOC(ctx, points, (size_t)to->n * w);
   memcpy(U, from->knot, (size_t)(n + p + 1) * sizeof *U);
