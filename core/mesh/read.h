@@ -51,6 +51,6 @@ typedef struct fs_polygons {
 } fs_polygons;
 void fs_polygons_clear(fs_context *ctx, fs_polygons *polygons); /* all zero is allowed */
 
-extern const fs_reader fs_reader_obj, fs_reader_off, fs_reader_ply, fs_reader_drc;
+extern const fs_reader fs_reader_obj, fs_reader_off, fs_reader_ply, fs_reader_xyz, fs_reader_drc;
 
 #endif

@@ -4,7 +4,10 @@
 
 #include <stdio.h>
 
-const fs_reader *const fs_readers[] = {&fs_reader_obj, &fs_reader_off, &fs_reader_ply,
+const fs_reader *const fs_readers[] = {&fs_reader_obj,
+                                       &fs_reader_off,
+                                       &fs_reader_ply,
+                                       &fs_reader_xyz,
 #ifdef FS_HAVE_DRACO
                                        &fs_reader_drc,
 #endif

@@ -56,6 +56,14 @@ def hills():
     return obj(vertices, triangles, "heights over the (x, y) plane for --construction stacho-graph")
 
 
+def survey():
+    """Scattered heights of one hill, without triangles."""
+    numbers = random.Random(11)
+    points = [(0, 0), (6, 0), (6, 4), (0, 4)] + [(numbers.uniform(0.2, 5.8), numbers.uniform(0.2, 3.8)) for _ in range(36)]
+    heights = [(x, y, 1.2 * math.exp(-0.35 * ((x - 2.6) ** 2 + (y - 2.2) ** 2)) + 0.1 * x) for x, y in points]
+    return "# scattered heights for --construction stacho-graph\n" + "".join(point(p) + "\n" for p in heights)
+
+
 # ---- splines ----
 
 def spline(kind, name, degrees, knots, coefficients):
@@ -117,7 +125,7 @@ def turn(rows):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    for name, make in (("blob.obj", blob), ("hills.obj", hills), ("gap.spl", gap), ("pair.spl", pair), ("roof.bv", roof)):
+    for name, make in (("blob.obj", blob), ("hills.obj", hills), ("survey.xyz", survey), ("gap.spl", gap), ("pair.spl", pair), ("roof.bv", roof)):
         (folder / name).write_text(make(), encoding="ascii")
         print(name)
 

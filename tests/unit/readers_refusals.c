@@ -34,8 +34,8 @@ static const struct refusal refusals[] = {
     {"obj", "", "the file is empty", 0},
     {"off", "", "the file is empty", 0},
     {"ply", "", "the file is empty", 0},
-    {"stl", "solid", "no reader for '.stl'; there are readers for .obj .off .ply" DRC, FS_ERR_UNSUPPORTED},
-    {"", "", "no reader for '.'; there are readers for .obj .off .ply" DRC, FS_ERR_UNSUPPORTED},
+    {"stl", "solid", "no reader for '.stl'; there are readers for .obj .off .ply .xyz" DRC, FS_ERR_UNSUPPORTED},
+    {"", "", "no reader for '.'; there are readers for .obj .off .ply .xyz" DRC, FS_ERR_UNSUPPORTED},
 
     {"obj", "\n", "the file has no vertices (lines that start with v)", 0},
     {"obj", "v 0 0 0\n", "the file has no faces (lines that start with f)", 0},
