@@ -31,6 +31,9 @@ enum {
   KEY_CAPS,
   KEY_COLOUR,
   KEY_LIST,
+  KEY_REQUIRE,
+  KEY_WORST,
+  KEY_COMPARE,
   KEY_CONSTRUCTION,
   KEY_NORMALS,
   KEY_PARAM = 2000 /* + number of a parameter in the list below */
@@ -181,11 +184,8 @@ static command command_of(const char *text) {
   static const struct {
     const char *name;
     command command;
-  } known[] = {{"info", COMMAND_INFO},
-               {"refine", COMMAND_REFINE},
-               {"fair", COMMAND_FAIR},
-               {"export", COMMAND_EXPORT},
-               {"patch", COMMAND_PATCH}};
+  } known[] = {{"info", COMMAND_INFO},     {"refine", COMMAND_REFINE}, {"fair", COMMAND_FAIR},
+               {"export", COMMAND_EXPORT}, {"patch", COMMAND_PATCH},   {"check", COMMAND_CHECK}};
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
     if (strcmp(known[i].name, text) == 0) return known[i].command;
   return COMMAND_NONE;
@@ -219,14 +219,31 @@ static void finish_outputs(struct argp_state *state, parser *p) {
       fill_params(state, p, fs_refiners[i]->params, p->n_events, a->refiner_param);
 }
 
+/* --tolerance is a parameter of exporters too. */
+static void finish_check(struct argp_state *state, parser *p) {
+  const char *text = setting(p, "tolerance", p->n_events);
+  char *end;
+  if (text == NULL) return;
+  p->arguments->tolerance = strtod(text, &end);
+  if (end == text || *end != '\0' || !(p->arguments->tolerance >= 0) || !isfinite(p->arguments->tolerance))
+    argp_error(state, "--tolerance %s: a number from 0 on is needed", text);
+}
+
+static int32_t parse_order(struct argp_state *state, const char *text) {
+  if ((text[0] == 'g' || text[0] == 'G') && text[1] >= '0' && text[1] <= '3' && text[2] == '\0') return text[1] - '0';
+  argp_error(state, "--require %s: choose one of g0, g1, g2, g3", text);
+  return -1;
+}
+
 static void finish(struct argp_state *state, parser *p) {
   arguments *a = p->arguments;
-  if (a->command == COMMAND_NONE) argp_error(state, "a command is needed: info, refine, fair, export or patch");
+  if (a->command == COMMAND_NONE) argp_error(state, "a command is needed: info, refine, fair, export, patch or check");
   if (a->mesh == NULL) argp_error(state, "a mesh is needed");
   finish_outputs(state, p);
   if (a->command == COMMAND_EXPORT && a->n_outputs == 0) argp_error(state, "export needs an output: -o FILE");
   if (a->command == COMMAND_PATCH && a->n_outputs == 0) argp_error(state, "patch needs an output: -o FILE");
   if (a->command == COMMAND_REFINE && a->n_outputs == 0) argp_error(state, "refine needs an output: -o FILE");
+  if (a->command == COMMAND_CHECK) finish_check(state, p);
   if (a->no_refine && a->refine > 0) argp_error(state, "--refine and --no-refine exclude each other");
 }
 
@@ -266,6 +283,15 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case KEY_LIST:
     print_list();
     exit(0);
+  case KEY_REQUIRE:
+    a->require = parse_order(state, text);
+    break;
+  case KEY_WORST:
+    a->worst = parse_integer(state, "worst", text, 1, 10000);
+    break;
+  case KEY_COMPARE:
+    a->compare = text;
+    break;
   case KEY_CONSTRUCTION:
     a->construction = fs_construction_find(text);
     if (a->construction == NULL)
@@ -335,7 +361,7 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     if (state->arg_num == 0) {
       a->command = command_of(text);
       if (a->command == COMMAND_NONE)
-        argp_error(state, "unknown command %s: info, refine, fair, export and patch are known", text);
+        argp_error(state, "unknown command %s: info, refine, fair, export, patch and check are known", text);
     } else if (state->arg_num == 1) {
       a->mesh = text;
     } else {
@@ -359,7 +385,7 @@ static const struct argp_option fixed_options[] = {
     {"name", KEY_NAME, "NAME", 0, "name of the object in the files (default: stem of the file)", 0},
     {"colour", KEY_COLOUR, "MEASURE", 0, "colour by a measure: mean, gaussian, … (see --list)", 0},
     {"report", KEY_REPORT, "FILE", 0, "write the report of fairing as JSON", 0},
-    {"json", KEY_JSON, NULL, 0, "info: print JSON", 0},
+    {"json", KEY_JSON, NULL, 0, "info, check: print JSON", 0},
     {"quiet", 'q', NULL, 0, "no notes, no progress, no report", 0},
     {NULL, 0, NULL, 0, "The mesh and its space:", 2},
     {"refine", KEY_REFINE, "N", 0, "refine N times at least; without it only where the space needs it", 0},
@@ -380,6 +406,11 @@ static const struct argp_option fixed_options[] = {
     {NULL, 0, NULL, 0, "Patches:", 4},
     {"construction", KEY_CONSTRUCTION, "NAME", 0, "how patch makes the surface (default: the first of --list)", 0},
     {"normals", KEY_NORMALS, "FILE", 0, "patch: a normal per line, x y z, in the order of the vertices", 0},
+    {NULL, 0, NULL, 0, "Checking:", 4},
+    {"require", KEY_REQUIRE, "ORDER", 0,
+     "g0, g1, g2 or g3 with --tolerance X (1e-6): exit with 5 where edges or vertices miss it", 0},
+    {"worst", KEY_WORST, "N", 0, "length of the lists of the worst edges (10)", 0},
+    {"compare", KEY_COMPARE, "START", 0, "measure START too, and say how the surface differs", 0},
     {NULL, 0, NULL, 0, "About:", 9},
     {"list", KEY_LIST, NULL, 0, "list functionals, rules, refinements, constructions, formats, measures", 0},
     {"version", 'V', NULL, 0, "print the version and the BLAS in use", 0},
@@ -394,11 +425,15 @@ void parse_arguments(int argc, char **argv, arguments *a) {
       "  refine MESH   one refinement step of the mesh\n"
       "  fair MESH     move the free vertices to the fairest surface, write it\n"
       "  export MESH   write the surface as it is\n"
-      "  patch MESH    write a surface through the vertices, made without fairing\n\n"
+      "  patch MESH    write a surface through the vertices, made without fairing\n"
+      "  check FILE    measure how smoothly patches meet, curvatures, energies, self-intersections; FILE is a mesh or "
+      "holds\n"
+      "                patches; an -o shows the jumps as colours\n\n"
       "Options of a file format hold for the -o that follow them; where none came before an -o, the first one on the "
       "line "
-      "holds. Exit codes: 0 done, 1 the input is refused, 2 usage, 3 numeric failure, 4 files, 130 cancelled (the best "
-      "surface so far is written).";
+      "holds. Exit codes: 0 done, 1 the input is refused, 2 usage, 3 numeric failure, 4 files, 5 check: what is "
+      "required is "
+      "missing, 130 cancelled (the best surface so far is written).";
   parser p = {.arguments = a};
   struct argp_option options[N_FIXED_OPTIONS + MAX_NAMES + 2] = {{0}};
   int n = 0;
@@ -408,6 +443,8 @@ void parse_arguments(int argc, char **argv, arguments *a) {
                    .max_iterations = 100,
                    .threads = 1,
                    .blas_threads = 1,
+                   .require = -1,
+                   .tolerance = 1e-6,
                    .caps = -1};
   collect_params(&p);
   for (int i = 0; i < N_FIXED_OPTIONS; i++) options[n++] = fixed_options[i];

@@ -6,7 +6,7 @@
 #include <fairsurf/fairsurf.h>
 #include <stdio.h>
 
-enum { EXIT_REFUSED = 1, EXIT_USAGE = 2, EXIT_NUMERIC = 3, EXIT_FILE = 4, EXIT_CANCELLED = 130 };
+enum { EXIT_REFUSED = 1, EXIT_USAGE = 2, EXIT_NUMERIC = 3, EXIT_FILE = 4, EXIT_FAILED = 5, EXIT_CANCELLED = 130 };
 enum { MAX_OUTPUTS = 64, MAX_PARAM_VALUES = 24 };
 
 typedef enum command {
@@ -15,7 +15,8 @@ typedef enum command {
   COMMAND_REFINE,
   COMMAND_FAIR,
   COMMAND_EXPORT,
-  COMMAND_PATCH
+  COMMAND_PATCH,
+  COMMAND_CHECK
 } command;
 
 /* One -o, with the settings that hold for it. */
@@ -44,6 +45,10 @@ typedef struct arguments {
   const fs_construction *construction; /* of the command patch */
   double construction_param[MAX_PARAM_VALUES];
   const char *normals; /* file, or NULL */
+  int32_t require;     /* of the command check: the order of continuity, or -1 */
+  int32_t worst;       /* length of its lists */
+  double tolerance;
+  const char *compare; /* file, or NULL */
 } arguments;
 
 /* Fills the arguments or leaves the program: 0 after --help and --version, 2 with a sentence where they are wrong. */
@@ -60,6 +65,14 @@ void note_lost_caps(fs_context *ctx, const fs_cap_notes *kept); /* by refinement
 
 /* What the command info prints. */
 fs_status print_info(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh, const fs_mesh_notes *notes);
+
+/* The surface that a file holds, or that its control net gives. */
+fs_status load_surface(fs_context *ctx, const arguments *arguments, const char *path, fs_surface **surface);
+
+/* The command check. passes: whether the required continuity is there, or none was required. */
+fs_status run_check(fs_context *ctx, const arguments *arguments, bool *passes);
+
+void put_string(FILE *file, const char *text); /* as a string of JSON */
 
 /* The command patch. */
 fs_status run_patch(fs_context *ctx, const arguments *arguments);

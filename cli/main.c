@@ -68,6 +68,7 @@ typedef struct job {
   fs_cap_notes *caps; /* what c holds behind the vertices, or NULL */
   fs_fair_report report;
   timings seconds;
+  bool passes; /* check: what is required is there */
   char made_with[200];
   const char *functional; /* that the control net minimises: part of made_with or of the notes; or NULL */
 } job;
@@ -229,6 +230,7 @@ static fs_status run(job *j) {
   const arguments *a = j->arguments;
   double start = now(), then = start, t;
   if (a->command == COMMAND_PATCH) return run_patch(j->ctx, a);
+  if (a->command == COMMAND_CHECK) return run_check(j->ctx, a, &j->passes);
   TRY(fs_mesh_read_notes(j->ctx, a->mesh, &j->mesh, &j->notes));
   describe(j);
   j->seconds.read = (t = now()) - then, then = t;
@@ -267,7 +269,7 @@ int main(int argc, char **argv) {
   arguments arguments;
   parse_arguments(argc, argv, &arguments);
   fs_context ctx = {.progress = go_on, .note = arguments.quiet ? NULL : print_note, .n_threads = arguments.threads};
-  job j = {.ctx = &ctx, .arguments = &arguments};
+  job j = {.ctx = &ctx, .arguments = &arguments, .passes = true};
   fs_status status;
   int code;
   signal(SIGINT, interrupt);
@@ -276,6 +278,7 @@ int main(int argc, char **argv) {
   code = exit_code(status);
   if (status != FS_OK) fprintf(stderr, "fairsurf: %s\n", ctx.message[0] != '\0' ? ctx.message : fs_status_text(status));
   if (status == FS_OK && j.report.stop == FS_STOP_CANCELLED) code = EXIT_CANCELLED;
+  if (status == FS_OK && !j.passes) code = EXIT_FAILED;
   job_free(&j);
   fs_context_clear(&ctx);
   return code;

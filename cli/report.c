@@ -37,7 +37,7 @@ static void put_energy(FILE *file, const char *name, const fs_energy *e) {
   put_number(file, "gradient", e->gradient, "},\n");
 }
 
-static void put_string(FILE *file, const char *text) {
+void put_string(FILE *file, const char *text) {
   fputc('"', file);
   for (; *text != '\0'; text++) {
     unsigned char c = (unsigned char)*text;

@@ -29,9 +29,20 @@ static void evaluate_line(void *user, double t, fs_vec3 *x, fs_vec3 *y) {
   for (int k = 0; k < FS_JET_SIZE; k++) x[k] = point.jet[0][k], y[k] = point.jet[1][k];
 }
 
+static int32_t degree_along(const job *j, int32_t e) {
+  int32_t degree = 0;
+  for (int k = 0; k < 2; k++) {
+    const fs_patch *patch = &j->surface->patch[j->edges->edge[e].patch[k]];
+    degree = patch->degree_u > degree ? patch->degree_u : degree;
+    degree = patch->degree_v > degree ? patch->degree_v : degree;
+  }
+  return degree;
+}
+
 static void search_edge(const job *j, int32_t e, double precision, fs_line_jumps *jumps) {
   edge_line line = {j->surface, &j->edges->edge[e]};
-  fs_line_largest(&(fs_line){evaluate_line, &line, line.edge->is_flipped}, precision, jumps);
+  int32_t n_start = precision == rough && degree_along(j, e) <= 3 ? 5 : degree_along(j, e) <= 9 ? 9 : 17;
+  fs_line_largest(&(fs_line){evaluate_line, &line, line.edge->is_flipped, n_start}, precision, jumps);
 }
 
 static fs_status measure_edges(void *user, int32_t begin, int32_t end, int32_t worker) {

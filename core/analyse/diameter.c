@@ -7,7 +7,7 @@
 #include "analyse/analyse.h"
 #include "math/vec3.h"
 
-enum { N_DIRECTIONS = 128, N_PAIRS = 4, MAX_TURNS = 20, MAX_ROUNDS = 40 };
+enum { N_DIRECTIONS = 64, N_PAIRS = 4, MAX_TURNS = 20, MAX_ROUNDS = 40 };
 static const double golden_angle = 2.399963229728653, last_step = 1e-9, least_gain = 1e-13;
 
 typedef struct points {
@@ -33,7 +33,7 @@ static fs_status make_points(fs_context *ctx, points *p) {
   const int32_t n_patches = p->surface->n_patches;
   fs_vec3 x[FS_JET_SIZE];
   fs_status status = FS_OK;
-  p->per_side = n_patches <= 1000 ? 9 : n_patches <= 20000 ? 5 : 3;
+  p->per_side = n_patches <= 1000 ? 9 : n_patches <= 20000 ? 5 : 2;
   p->n = n_patches * p->per_side * p->per_side;
   FS_ALLOC(ctx, p->point, p->n);
   for (int32_t i = 0; i < p->n; i++) {

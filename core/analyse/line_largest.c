@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-enum { N_START = 9, MAX_SAMPLES = 400 };
+enum { N_START = 9, MOST_START = 65, MAX_SAMPLES = 400 };
 
 static const double least_interval = 1e-7;
 
@@ -170,7 +170,9 @@ static void follow_all(search *s) {
 void fs_line_largest(const fs_line *line, double precision, fs_line_jumps *jumps) {
   fs_line_jumps result = {{NAN, NAN, NAN, NAN}, {0, 0, 0, 0}, 0, 0, 0};
   search s = {.line = line, .result = &result, .shortest_tangent = INFINITY};
-  for (int32_t i = 0; i < N_START; i++) evaluate(&s, (double)i / (N_START - 1), &s.at[s.n++]);
+  int32_t n = line->n_start == 0 ? N_START : line->n_start;
+  n = n < 3 ? 3 : n > MOST_START ? MOST_START : n;
+  for (int32_t i = 0; i < n; i++) evaluate(&s, (double)i / (n - 1), &s.at[s.n++]);
   while (halve_open(&s, precision)) continue;
   if (precision <= 1e-3) follow_all(&s);
   *jumps = result;

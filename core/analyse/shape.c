@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-enum { MAX_SAMPLES = 1 << 20, N_FOLLOWED = 48, PART = 8192 };
+enum { MAX_SAMPLES = 1 << 18, N_FOLLOWED = 48, PART = 8192 };
 static const double area_tolerance = 1e-10, willmore_factor = 1e3, S_factor = 1e5;
 static const double suspicious = 0.02, singular = 1e-6; /* |p_u x p_v| in relation to its average */
 static const double followed_range = 0.3, regular = 1e-4;

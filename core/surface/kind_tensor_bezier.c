@@ -17,12 +17,19 @@ static void raise(double *basis, int32_t d, double t, bool is_derivative) {
   }
 }
 
-/* basis[order][i]: derivatives 0 .. 3 of the Bernstein polynomials of the given degree at t */
+/* basis[order][i]: derivatives 0 .. 3 of the Bernstein polynomials of the given degree at t. Order k leaves the way up to
+   the degree at degree - k, from where on it is differentiated. */
 static void bernstein(int32_t degree, double t, double basis[N_ORDERS][FS_MAX_DEGREE + 1]) {
-  for (int32_t order = 0; order < N_ORDERS; order++) {
-    basis[order][0] = order <= degree ? 1 : 0;
-    for (int32_t d = 0; d < degree; d++) raise(basis[order], d, t, d >= degree - order);
+  basis[0][0] = 1;
+  for (int32_t order = 1; order < N_ORDERS; order++)
+    for (int32_t i = 0; i <= degree && order > degree; i++) basis[order][i] = 0;
+  for (int32_t d = 0; d < degree; d++) {
+    int32_t order = degree - d;
+    for (int32_t i = 0; i <= d && order < N_ORDERS; i++) basis[order][i] = basis[0][i];
+    raise(basis[0], d, t, false);
   }
+  for (int32_t order = 1; order < N_ORDERS && order <= degree; order++)
+    for (int32_t d = degree - order; d < degree; d++) raise(basis[order], d, t, true);
 }
 
 /* An axis of the patch: the degree, how far apart its points are in the array, the basis at the parameter. */

@@ -47,7 +47,8 @@ FS_API extern const double fs_percentiles[FS_N_PERCENTILES]; /* 1, 5, 50, 95, 99
 typedef struct fs_distribution {
   double min, max; /* followed to the extreme within the patch */
   fs_place at_min, at_max;
-  double percentile[FS_N_PERCENTILES]; /* so many per cent of the area have a smaller value; from at most 2^20 points */
+  double percentile
+      [FS_N_PERCENTILES]; /* so many per cent of the area have a smaller value; from some 2^18 points at most */
 } fs_distribution;
 
 /* The numbers of a surface as a whole [docs/measures.md]. NAN and FS_NONE where the surface has no normal anywhere. */
@@ -135,6 +136,7 @@ typedef struct fs_line {
   void (*evaluate)(void *user, double t, fs_vec3 x[FS_JET_SIZE], fs_vec3 y[FS_JET_SIZE]);
   void *user;
   bool is_flipped;
+  int32_t n_start; /* equidistant samples to begin with, 3 .. 65; 0: 9 */
 } fs_line;
 
 /* The largest jumps along a line, and where. NAN: nowhere is one. */
