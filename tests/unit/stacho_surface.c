@@ -458,6 +458,39 @@ static void refuse(const fs_mesh *mesh, const fs_vec3 *normal, fs_status expecte
   assert_null(s);
 }
 
+/* Curvatures as no surface of this size has, at random: two triangles come to lie on one side of their edge. */
+static void test_folded_edges(void **state) {
+  fs_context ctx = test_context();
+  fs_mesh *mesh = icosahedron();
+  fs_surface *s = NULL;
+  double shape[72];
+  uint64_t seed = 1;
+  int n_folded = 0;
+  (void)state;
+  for (int repeat = 0; repeat < 20; repeat++) {
+    for (int v = 0; v < 12; v++) { /* a w w^T with tangent w */
+      fs_vec3 n = mesh->position[v], w = {test_random_real(&seed, -1, 1), test_random_real(&seed, -1, 1), 0};
+      double a = test_random_real(&seed, -60, 60);
+      w = fs_vec3_add_scaled(w, n, -fs_vec3_dot(w, n));
+      const double tensor[6] = {a * w.x * w.x, a * w.x * w.y, a * w.x * w.z,
+                                a * w.y * w.y, a * w.y * w.z, a * w.z * w.z};
+      memcpy(shape + 6 * v, tensor, sizeof tensor);
+    }
+    fs_status status = fs_stacho_surface(&ctx, mesh, NULL, shape, NULL, &s);
+    if (status == FS_OK) {
+      fs_surface_free(&ctx, s);
+      s = NULL;
+      continue;
+    }
+    assert_int_equal(status, FS_ERR_NUMERIC);
+    assert_non_null(strstr(ctx.message, "do not lie on opposite sides of the edge between vertices"));
+    assert_null(s);
+    n_folded++;
+  }
+  assert_true(n_folded > 0);
+  fs_mesh_free(&ctx, mesh);
+}
+
 static void test_bad_input(void **state) {
   fs_context ctx = test_context();
   fs_mesh *cube = test_cube(), *mesh = icosahedron();
@@ -488,6 +521,7 @@ int main(void) {
       cmocka_unit_test(test_misprint),      cmocka_unit_test(test_sphere),
       cmocka_unit_test(test_flat),          cmocka_unit_test(test_similarity),
       cmocka_unit_test(test_threads),       cmocka_unit_test(test_bad_input),
+      cmocka_unit_test(test_folded_edges),
   };
   int failures;
   vectors = vectors_open("math/patches-vectors.json");
