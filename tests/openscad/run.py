@@ -26,9 +26,9 @@ PLUGIN = HERE / ".." / ".." / "plugins" / "openscad"
 SKIPPED = 77
 PRECISION = 1e-4
 # mesh, command, module, steps, height of the cut
-CASES = {"pipe": ("pipe.obj", "fair", "pipe", 3, 0.1),
-         "hull": ("hull.obj", "export", "hull_surface", 4, 0.1),
-         "genus2": ("genus2.obj", "export", "genus2", 5, 0.1)}
+CASES = {"pipe": ("pipe.obj", ["fair", "--functional", "penalised"], "pipe", 3, 0.1),
+         "hull": ("hull.obj", ["export"], "hull_surface", 4, 0.1),
+         "genus2": ("genus2.obj", ["export"], "genus2", 5, 0.1)}
 CUBE = "translate([-1000, -1000, %r]) cube(2000);"
 
 
@@ -68,7 +68,7 @@ def make(arguments, name):
     """The .scad file and the surface as points, normals and triangles."""
     mesh, command, _, steps, _ = CASES[name]
     scad, ply = arguments.out / f"{name}.scad", arguments.out / f"{name}.ply"
-    must([arguments.fairsurf, command, MESHES / mesh, "-q", "--functional", "penalised", "--steps", steps, "-o", scad,
+    must([arguments.fairsurf, *command, MESHES / mesh, "-q", "--functional", "penalised", "--steps", steps, "-o", scad,
           "--surface", "-o", ply])
     return scad, solid.read_ply(ply)
 

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: volume and area of the surface over a mesh by Gauss quadrature on its patches, to compare files with.
 
-   Usage: measure fair|export MESH      Prints "volume V", "area A", "size D" (diagonal of the box) and "patches N".
+   Usage: measure MESH      With the inner coefficients of caps that the file of the mesh keeps. Prints "volume V", "area A", "size D" (diagonal of the box) and "patches N".
    V = 1/3 integral p . (p_u x p_v) du dv, exact with 16 nodes per direction up to degree 10; A = integral |p_u x p_v|. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <fairsurf/fairsurf.h>
 
@@ -64,34 +62,24 @@ int main(int argc, char **argv) {
   int32_t n_steps = 0;
   fs_space *space = NULL;
   fs_surface *surface = NULL;
-  bool *fixed = NULL;
-  fs_vec3 *c = NULL;
-  fs_fair_report *report = NULL;
-  if (argc != 3 || (strcmp(argv[1], "fair") != 0 && strcmp(argv[1], "export") != 0)) {
-    fprintf(stderr, "usage: %s fair|export MESH\n", argv[0]);
+  fs_mesh_notes notes = {0};
+  if (argc != 2) {
+    fprintf(stderr, "usage: %s MESH\n", argv[0]);
     return 2;
   }
-  TRY(fs_mesh_read(ctx, argv[2], &mesh));
+  TRY(fs_mesh_read_notes(ctx, argv[1], &mesh, &notes));
   TRY(fs_space_prepare(ctx, mesh, 0, steps, &n_steps));
   const fs_mesh *fine = n_steps > 0 ? steps[n_steps - 1]->mesh : mesh;
-  TRY(fs_space_create(ctx, fine, &space));
-  fixed = calloc((size_t)space->n_dofs, sizeof *fixed);
-  c = malloc((size_t)space->n_dofs * sizeof *c);
-  report = malloc(sizeof *report);
-  if (fixed == NULL || c == NULL || report == NULL) TRY(FS_ERR_MEMORY);
-  memcpy(c, space->start, (size_t)space->n_dofs * sizeof *c);
-  TRY(fs_space_rim(ctx, fine, space, fixed));
-  if (strcmp(argv[1], "fair") == 0) TRY(fs_fair(ctx, space, &(fs_fair_options){.fixed = fixed}, c, report));
-  TRY(fs_surface_create(ctx, space, c, &surface));
+  fs_space_options options = {.caps = notes.caps != NULL ? FS_CAPS_FULL : FS_CAPS_LINEAR, .kept = notes.caps};
+  TRY(fs_space_create_with(ctx, fine, &options, &space));
+  TRY(fs_surface_create(ctx, space, space->start, &surface));
   measure(surface);
 done:
   if (status != FS_OK) fprintf(stderr, "%s\n", context.message[0] != '\0' ? context.message : fs_status_text(status));
-  free(report);
-  free(c);
-  free(fixed);
   fs_surface_free(ctx, surface);
   fs_space_free(ctx, space);
   for (int32_t i = 0; i < n_steps; i++) fs_refinement_free(ctx, steps[i]);
+  fs_mesh_notes_clear(ctx, &notes);
   fs_mesh_free(ctx, mesh);
   fs_context_clear(ctx);
   return status == FS_OK ? 0 : 1;
