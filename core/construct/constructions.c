@@ -5,9 +5,13 @@
 
 #include <string.h>
 
-const fs_construction *const fs_constructions[] = {&fs_construction_gregory,      &fs_construction_stacho,
-                                                   &fs_construction_stacho_graph, &fs_construction_junction,
-                                                   &fs_construction_gap,          NULL};
+const fs_construction *const fs_constructions[] = {&fs_construction_gregory,
+                                                   &fs_construction_coons,
+                                                   &fs_construction_stacho,
+                                                   &fs_construction_stacho_graph,
+                                                   &fs_construction_junction,
+                                                   &fs_construction_gap,
+                                                   NULL};
 
 const fs_construction *fs_construction_find(const char *name) {
   for (const fs_construction *const *c = fs_constructions; *c != NULL; c++)

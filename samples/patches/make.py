@@ -64,6 +64,15 @@ def survey():
     return "# scattered heights for --construction stacho-graph\n" + "".join(point(p) + "\n" for p in heights)
 
 
+def lantern():
+    """A prism over a regular pentagon, a pyramid on top: a pentagon, quads and triangles."""
+    ring = [(math.cos(2 * math.pi * k / 5), math.sin(2 * math.pi * k / 5)) for k in range(5)]
+    vertices = [(x, y, 0) for x, y in ring] + [(1.25 * x, 1.25 * y, 1.3) for x, y in ring] + [(0, 0, 2.3)]
+    faces = [(4, 3, 2, 1, 0)] + [(k, (k + 1) % 5, 5 + (k + 1) % 5, 5 + k) for k in range(5)]
+    return obj(vertices, faces + [(5 + k, 5 + (k + 1) % 5, 10) for k in range(5)],
+               "a closed mesh of faces of three, four and five vertices for --construction gregory")
+
+
 # ---- splines ----
 
 def spline(kind, name, degrees, knots, coefficients):
@@ -99,6 +108,28 @@ def pair():
     return text + "".join("\n" + spline("function", name, (len(c) - 1,), (), c) for name, c in functions.items())
 
 
+def sail():
+    """Four curves of different degrees and knots that meet in the corners of a sail."""
+    corners = {(0, 0): (0, 0, 0), (1, 0): (4, 0.3, 0.4), (0, 1): (0.6, 3.2, 1.6), (1, 1): (3.1, 3.6, 0.2)}
+    v0 = [corners[0, 0], (0.9, -0.6, 0.5), (2, -0.7, 0.9), (3.1, -0.2, 0.9), corners[1, 0]]
+    v1 = [corners[0, 1], (1.4, 3.9, 1.9), (2.4, 4, 0.9), corners[1, 1]]
+    u0 = [corners[0, 0], (-0.5, 1, 1.2), (-0.1, 2.4, 1.9), corners[0, 1]]
+    u1 = [corners[1, 0], (4.4, 1.9, 1.4), corners[1, 1]]
+    return "fairsurf-splines 1\n# for --construction coons\n\n" + "\n".join(
+        [spline("curve", "v0", (3,), ([0, 0, 0, 0, 0.4, 1, 1, 1, 1],), v0), spline("curve", "v1", (3,), (), v1),
+         spline("curve", "u0", (3,), (), u0), spline("curve", "u1", (2,), (), u1)])
+
+
+def pillow():
+    """Four cubic curves without inner knots, two arched and two sagging."""
+    side = {"v0": [(0, 0, 0), (1, -0.3, 1.1), (2, -0.3, 1.1), (3, 0, 0)],
+            "v1": [(0, 3, 0), (1, 3.3, 1.1), (2, 3.3, 1.1), (3, 3, 0)],
+            "u0": [(0, 0, 0), (-0.3, 1, -0.7), (-0.3, 2, -0.7), (0, 3, 0)],
+            "u1": [(3, 0, 0), (3.3, 1, -0.7), (3.3, 2, -0.7), (3, 3, 0)]}
+    return "fairsurf-splines 1\n# for --construction coons, any blend\n\n" + "\n".join(
+        spline("curve", name, (3,), (), points) for name, points in side.items())
+
+
 # ---- BezierView ----
 
 def roof():
@@ -125,7 +156,8 @@ def turn(rows):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    for name, make in (("blob.obj", blob), ("hills.obj", hills), ("survey.xyz", survey), ("gap.spl", gap), ("pair.spl", pair), ("roof.bv", roof)):
+    for name, make in (("blob.obj", blob), ("lantern.obj", lantern), ("hills.obj", hills),
+                       ("survey.xyz", survey), ("gap.spl", gap), ("pair.spl", pair), ("sail.spl", sail), ("pillow.spl", pillow), ("roof.bv", roof)):
         (folder / name).write_text(make(), encoding="ascii")
         print(name)
 

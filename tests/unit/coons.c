@@ -377,6 +377,113 @@ static void test_bicubics(void **state) {
   fs_surface_free(&ctx, s);
 }
 
+/* ---- the construction ---- */
+
+static const char sides_text[] = "fairsurf-splines 1\n"
+                                 "curve v0\ndegree 3\nknots 0 0 0 0 0.4 1 1 1 1\npoints\n"
+                                 "0 0 0  0.9 -0.6 0.5  2 -0.7 0.9  3.1 -0.2 0.9  4 0.3 0.4\n"
+                                 "curve v1\ndegree 3\nknots 2 2 2 2 5 5 5 5\npoints\n"
+                                 "0.6 3.2 1.6  1.4 3.9 1.9  2.4 4 0.9  3.1 3.6 0.2\n"
+                                 "curve u0\ndegree 3\npoints\n0 0 0  -0.5 1 1.2  -0.1 2.4 1.9  0.6 3.2 1.6\n"
+                                 "curve u1\ndegree 2\npoints\n4 0.3 0.4  4.4 1.9 1.4  3.1 3.6 0.2\n";
+
+static fs_vec3 curve_point(const fs_splines *splines, const char *name, double t) {
+  const fs_spline *s = fs_splines_find(splines, name);
+  const double *knot = s->knot[0];
+  fs_vec3 x;
+  fs_spline_evaluate(s, knot[0] + t * (knot[s->n[0] + s->degree[0]] - knot[0]), 0, 0, 0, &x.x);
+  return x;
+}
+
+/* Sides of different degrees, knots and domains: the patches are the Boolean sum. */
+static void test_construction(void **state) {
+  const fs_construction *coons = fs_construction_find("coons");
+  fs_context ctx = test_context();
+  fs_splines *splines = NULL;
+  fs_surface *s = NULL;
+  (void)state;
+  assert_int_equal(fs_splines_parse(&ctx, sides_text, strlen(sides_text), &splines), FS_OK);
+  fs_construction_input input = {.splines = splines};
+  if (fs_construct(&ctx, coons, &input, NULL, &s) != FS_OK) fail_msg("%s", ctx.message);
+  assert_int_equal(s->n_patches, 2);
+  for (int p = 0; p < 2; p++)
+    for (int k = 0; k < 25; k++) {
+      double a = k % 5 / 4.0, v = k / 5 / 4.0, u = p == 0 ? 0.4 * a : 0.4 + 0.6 * a;
+      fs_vec3 x[FS_JET_SIZE], sum = fs_vec3_scale(curve_point(splines, "v0", u), 1 - v);
+      sum = fs_vec3_add_scaled(sum, curve_point(splines, "v1", u), v);
+      sum = fs_vec3_add_scaled(sum, curve_point(splines, "u0", v), 1 - u);
+      sum = fs_vec3_add_scaled(sum, curve_point(splines, "u1", v), u);
+      for (int c = 0; c < 4; c++)
+        sum = fs_vec3_add_scaled(sum, curve_point(splines, c / 2 ? "v1" : "v0", c % 2),
+                                 -(c % 2 ? u : 1 - u) * (c / 2 ? v : 1 - v));
+      fs_surface_evaluate(s, p, a, v, x);
+      near_points(x[FS_D], sum, 1e-13);
+    }
+  fs_surface_free(&ctx, s);
+  s = NULL;
+  const double smooth[] = {1};
+  assert_int_equal(fs_construct(&ctx, coons, &input, smooth, &s), FS_ERR_UNSUPPORTED);
+  assert_non_null(strstr(ctx.message, "without inner knots"));
+  splines->spline[3].c[0] += 0.25;
+  assert_int_equal(fs_construct(&ctx, coons, &input, NULL, &s), FS_ERR_NUMERIC);
+  assert_non_null(strstr(ctx.message, "the sides u = 1 and v = 0 differ at (1, 0) by 0.25 in S"));
+  splines->spline[3].name[1] = 'x';
+  assert_int_equal(fs_construct(&ctx, coons, &input, NULL, &s), FS_ERR_ARGUMENT);
+  assert_non_null(strstr(ctx.message, "needs a curve 'u1'; there is none"));
+  fs_splines_free(&ctx, splines);
+}
+
+/* One piece for each blend, which meets the sides. */
+static void test_blends(void **state) {
+  const fs_construction *coons = fs_construction_find("coons");
+  static const char text[] = "fairsurf-splines 1\n"
+                             "curve v0\ndegree 4\npoints\n0 0 0 1 -0.3 1 1.5 0 1 2 -0.3 1 3 0 0\n"
+                             "curve v1\ndegree 3\npoints\n0 3 0 1 3.3 1 2 3.3 1 3 3 0\n"
+                             "curve u0\ndegree 2\npoints\n0 0 0 -0.3 1 -1 0 3 0\n"
+                             "curve u1\ndegree 3\npoints\n3 0 0 3.3 1 -1 3.3 2 -1 3 3 0\n";
+  fs_context ctx = test_context();
+  fs_splines *splines = NULL;
+  (void)state;
+  assert_int_equal(fs_splines_parse(&ctx, text, strlen(text), &splines), FS_OK);
+  fs_construction_input input = {.splines = splines};
+  for (double blend = 0; blend < 3; blend++) {
+    fs_surface *s = NULL;
+    fs_vec3 x[FS_JET_SIZE];
+    if (fs_construct(&ctx, coons, &input, &blend, &s) != FS_OK) fail_msg("%s", ctx.message);
+    assert_int_equal(s->n_patches, 1);
+    for (int k = 0; k <= 8; k++) {
+      double t = k / 8.0;
+      fs_surface_evaluate(s, 0, t, 0, x), near_points(x[FS_D], curve_point(splines, "v0", t), 1e-13);
+      fs_surface_evaluate(s, 0, t, 1, x), near_points(x[FS_D], curve_point(splines, "v1", t), 1e-13);
+      fs_surface_evaluate(s, 0, 0, t, x), near_points(x[FS_D], curve_point(splines, "u0", t), 1e-13);
+      fs_surface_evaluate(s, 0, 1, t, x), near_points(x[FS_D], curve_point(splines, "u1", t), 1e-13);
+    }
+    fs_surface_free(&ctx, s);
+  }
+  fs_splines_free(&ctx, splines);
+}
+
+/* Every allocation fails once. */
+static void test_memory(void **state) {
+  struct test_memory memory = {0};
+  fs_status status = FS_ERR_MEMORY;
+  fs_context plain = test_context();
+  fs_splines *splines = NULL;
+  (void)state;
+  assert_int_equal(fs_splines_parse(&plain, sides_text, strlen(sides_text), &splines), FS_OK);
+  fs_construction_input input = {.splines = splines};
+  for (int64_t n = 1; status != FS_OK; n++) {
+    fs_context ctx = test_memory_context(&memory);
+    fs_surface *s = NULL;
+    memory.n_allocations = 0, memory.fail_at = n;
+    status = fs_construct(&ctx, fs_construction_find("coons"), &input, NULL, &s);
+    assert_true(status == FS_OK || (status == FS_ERR_MEMORY && s == NULL));
+    fs_surface_free(&ctx, s);
+    assert_int_equal(memory.n_live, 0);
+  }
+  fs_splines_free(&plain, splines);
+}
+
 /* ---- refusals ---- */
 
 static void refuse(const fs_coons_data *data, fs_status due, const char *part) {
@@ -414,11 +521,12 @@ static void test_refusals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_interpolation), cmocka_unit_test(test_derivatives), cmocka_unit_test(test_square),
-      cmocka_unit_test(test_continuity),    cmocka_unit_test(test_blending),    cmocka_unit_test(test_reproduction),
-      cmocka_unit_test(test_order),         cmocka_unit_test(test_affine),      cmocka_unit_test(test_bezier),
-      cmocka_unit_test(test_cross),         cmocka_unit_test(test_spline),      cmocka_unit_test(test_bicubics),
-      cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_interpolation), cmocka_unit_test(test_derivatives),  cmocka_unit_test(test_square),
+      cmocka_unit_test(test_continuity),    cmocka_unit_test(test_blending),     cmocka_unit_test(test_reproduction),
+      cmocka_unit_test(test_order),         cmocka_unit_test(test_affine),       cmocka_unit_test(test_bezier),
+      cmocka_unit_test(test_cross),         cmocka_unit_test(test_spline),       cmocka_unit_test(test_bicubics),
+      cmocka_unit_test(test_refusals),      cmocka_unit_test(test_construction), cmocka_unit_test(test_blends),
+      cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
