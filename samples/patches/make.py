@@ -157,7 +157,8 @@ def turn(rows):
 def main():
     folder = pathlib.Path(sys.argv[1])
     for name, make in (("blob.obj", blob), ("lantern.obj", lantern), ("hills.obj", hills),
-                       ("survey.xyz", survey), ("gap.spl", gap), ("pair.spl", pair), ("sail.spl", sail), ("pillow.spl", pillow), ("roof.bv", roof)):
+                       ("survey.xyz", survey), ("gap.spl", gap), ("pair.spl", pair), ("sail.spl", sail),
+                       ("pillow.spl", pillow), ("roof.bv", roof)):
         (folder / name).write_text(make(), encoding="ascii")
         print(name)
 
