@@ -4,7 +4,8 @@
 
 #include <stdio.h>
 
-const fs_surface_reader *const fs_surface_readers[] = {&fs_surface_reader_bv, &fs_surface_reader_spl, NULL};
+const fs_surface_reader *const fs_surface_readers[] = {&fs_surface_reader_bv, &fs_surface_reader_spl,
+                                                       &fs_surface_reader_step, &fs_surface_reader_stp, NULL};
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c + ('a' - 'A')) : c; }
 

@@ -57,7 +57,7 @@ typedef struct fs_surface_reader {
   const char *name, *extension, *summary;
   fs_status (*parse)(fs_context *ctx, const char *bytes, size_t size, fs_surface **surface);
 } fs_surface_reader;
-FS_API extern const fs_surface_reader *const fs_surface_readers[]; /* ends with NULL: bv, spl */
+FS_API extern const fs_surface_reader *const fs_surface_readers[]; /* ends with NULL: bv, spl, step, stp */
 
 /* Parses a surface in the format whose extension is given ("bv"), and joins the sides of its patches that agree within
    1e-9 of its size. FS_ERR_UNSUPPORTED lists the known formats. Memory stays within a small multiple of size. */

@@ -94,7 +94,8 @@ static void test_bad_bezierview(void **state) {
   refuse("bv", "1\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", FS_ERR_FORMAT, "uses vertex 3, but there are only 3");
   refuse("bv", "1\n3 1\n0 0 0\n1 0 0\n0 1 0\n5 0 1 2 0 1\n", FS_ERR_FORMAT, "face 0 of the polyhedron has 5 vertices");
   refuse("bv", "1\n2000000000 1\n0 0 0\n", FS_ERR_FORMAT, "more than the");
-  refuse("iges", "", FS_ERR_UNSUPPORTED, "no reader of surfaces for '.iges'; there are readers for .bv .spl");
+  refuse("iges", "", FS_ERR_UNSUPPORTED,
+         "no reader of surfaces for '.iges'; there are readers for .bv .spl .step .stp");
 }
 
 /* ---- splines ---- */
