@@ -6,14 +6,12 @@
    stage stop early, and run with few quadrature nodes, as does the way to the neighbourhood of a minimum; the last steps see
    all nodes and converge quadratically. */
 #include "fair/constrain.h"
-#include "fair/stay_near.h"
 
 #include <math.h>
 #include <string.h>
 #include <time.h>
 
-enum { MAX_ITERATIONS = 100, MAX_STAGES = 24, MAX_ROUNDS = 12, WALL_SHARE = 100 };
-static const double WALL_EXCESS = 0.004; /* relative to the tolerance */
+enum { MAX_ITERATIONS = 100, MAX_STAGES = 24 };
 
 typedef struct stage {
   double C;         /* first parameter of the functional */
@@ -32,8 +30,6 @@ typedef struct course {
   fs_solver *solver;
   fs_damping damping;
   double *x, *g, gradient_start;
-  double *begin, excess; /* with a wall: x at the start, and how far samples are beyond it */
-  int32_t n_rounds;      /* so many times the last stage was begun with the same wall */
   struct timespec start;
   int32_t n_earlier_steps; /* of the stages before */
   bool is_out_of_time;
@@ -56,7 +52,7 @@ static int32_t plan_stages(const fs_setup *s, stage *stages) {
     return n;
   }
   stages[n++] = (stage){first, 1, first == last ? 1e-2 : 1e-3, false};
-  for (double C = first / 10; C > 1.0001 * last && n < MAX_STAGES - 4; C /= 10)
+  for (double C = first / 10; C > 1.0001 * last && n < MAX_STAGES - 2; C /= 10)
     stages[n++] = (stage){C, 1, 1e-3, false};
   if (first != last) stages[n++] = (stage){last, 1, 1e-3, false};
   stages[n++] = (stage){last, 0, 1e-12, true};
@@ -87,44 +83,25 @@ static bool record(void *user, const fs_minimise_step *m) {
   return c->options->monitor == NULL || c->options->monitor(c->options->monitor_user, &step);
 }
 
-/* A stiffness of the wall at which going as far again beyond it everywhere would cost many times the functional. */
-static fs_status stiffen_wall(course *c, const fs_objective *objective) {
-  fs_status status = FS_OK;
-  fs_wall *wall = c->setup.wall;
-  double f;
-  c->setup.wall = NULL;
-  status = objective->gradient(objective->self, c->x, &f, c->g);
-  c->setup.wall = wall;
-  if (status == FS_ERR_CANCELLED) return FS_OK; /* the minimisation will hear of it too */
-  if (status != FS_OK) return status;
-  wall->stiffness =
-      WALL_SHARE * fabs(f) / ((double)wall->start[wall->problem->space->n_elements] * pow(wall->limit, 2));
-  return FS_OK;
-}
-
 static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
   fs_status status = FS_OK;
   const fs_fair_options *options = c->options;
-  int32_t max_iterations = options->max_iterations;
+  int32_t max_iterations = options->max_iterations == 0 ? MAX_ITERATIONS : options->max_iterations;
   fs_objective objective = fs_setup_objective(&c->setup, c->solver);
   fs_minimise_report m;
-  if (max_iterations == 0) max_iterations = c->setup.wall != NULL ? 4 * MAX_ITERATIONS : MAX_ITERATIONS;
   fs_minimise_options o = {.max_iterations = max_iterations - c->n_earlier_steps,
                            .decrease_tolerance = stage->tolerance,
                            .damping = &c->damping,
-                           .least_damping = c->setup.functional->is_scale_free || c->setup.wall != NULL ? 1e-10 : 0,
+                           .least_damping = c->setup.functional->is_scale_free ? 1e-10 : 0,
                            .monitor = record,
                            .user = c};
-  if (c->setup.wall != NULL) { /* the forces of the wall change after each stage */
-    o.decrease_tolerance = fmax(o.decrease_tolerance, 1e-7);
-  } else if (stage->is_last) {
+  if (stage->is_last) {
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
     o.gradient_start = c->gradient_start;
   }
   c->setup.n_cheap_hessians = stage->is_last && stage->level == 0;
   c->setup.param[0] = stage->C;
   FS_TRY(fs_problem_set_level(c->setup.problem, stage->level));
-  if (c->setup.wall != NULL && c->n_rounds == 0) FS_TRY(stiffen_wall(c, &objective));
   FS_TRY(fs_minimise(c->ctx, &objective, &o, c->x, &m));
   c->n_earlier_steps += m.n_steps;
   c->report->n_steps += m.n_steps;
@@ -132,30 +109,6 @@ static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
   c->report->n_factorisations += m.n_factorisations;
   c->report->stop = c->is_out_of_time ? FS_STOP_TIME : (fs_stop)m.stop;
   *is_over = m.stop == FS_MINIMISE_CANCELLED || m.stop == FS_MINIMISE_ITERATIONS;
-  fs_setup_place(&c->setup, c->x);
-  if (c->setup.wall != NULL) FS_TRY(fs_wall_learn(c->setup.wall, &c->excess));
-done:
-  return status;
-}
-
-/* Repeats the last stage until the forces hold the surface at the wall; what then still is beyond the tolerance goes back
-   towards the start. */
-static fs_status press_to_wall(course *c, const stage *last, bool is_over) {
-  fs_status status = FS_OK;
-  fs_wall *wall = c->setup.wall;
-  double tolerance = c->options->constraints->tolerance, distance, before;
-  int32_t face;
-  for (c->n_rounds = 1; c->n_rounds <= MAX_ROUNDS && !is_over; c->n_rounds++) {
-    if (c->excess <= WALL_EXCESS * tolerance) {
-      FS_TRY(fs_wall_measure(wall, &distance, &face));
-      if (distance <= tolerance) break;
-      wall->limit -= 1.1 * (distance - tolerance); /* there is more between the samples */
-    }
-    before = c->excess;
-    FS_TRY(run_stage(c, last, &is_over));
-    if (c->excess > 0.25 * before) wall->stiffness *= 4;
-  }
-  FS_TRY(fs_stay_near_retract(&c->setup, (1 - 1e-12) * tolerance, c->begin, c->x, &c->report->distance));
 done:
   return status;
 }
@@ -168,7 +121,6 @@ static fs_status run_stages(course *c) {
   bool is_over = false;
   c->damping = (fs_damping){.nu = is_quadratic(c->setup.functional) ? 0 : 1};
   for (int32_t i = 0; i < n && !is_over; i++) FS_TRY(run_stage(c, &stages[i], &is_over));
-  if (c->setup.wall != NULL) FS_TRY(press_to_wall(c, &stages[n - 1], is_over));
 done:
   c->setup.param[0] = last;
   return status;
@@ -212,18 +164,6 @@ done:
   return status;
 }
 
-static fs_status begin_near(course *c) {
-  fs_status status = FS_OK;
-  size_t n = 3 * (size_t)fs_setup_n(&c->setup);
-  if (c->options->start_triharmonic)
-    return fs_fail(c->ctx, FS_ERR_UNSUPPORTED, "a tolerance needs the start as it is, not the triharmonic surface");
-  FS_ALLOC(c->ctx, c->begin, n);
-  memcpy(c->begin, c->x, n * sizeof *c->begin);
-  FS_TRY(fs_stay_near_begin(&c->setup, c->options->constraints, c->x));
-done:
-  return status;
-}
-
 static fs_status run_course(course *c, const fs_space *space) {
   fs_status status = FS_OK;
   fs_problem *p = c->setup.problem;
@@ -234,7 +174,6 @@ static fs_status run_course(course *c, const fs_space *space) {
   FS_TRY(fs_solver_create(c->ctx, fs_setup_pattern(&c->setup), &c->solver));
   if (is_scale_free) FS_TRY(fs_setup_size(&c->setup, &size)); /* of the start as it was given */
   fs_setup_place(&c->setup, c->x);
-  if (constraints != NULL && constraints->tolerance != 0) FS_TRY(begin_near(c));
   if (c->options->start_triharmonic) FS_TRY(begin_triharmonic(c, space));
   if (c->options->start_triharmonic || c->setup.reduction != NULL) FS_TRY(fs_setup_measure(&c->setup, c->g, &begin));
   FS_TRY(check_start(c->ctx, &c->setup, &begin));
@@ -307,7 +246,6 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
 done:
   fs_release(ctx, c.x);
   fs_release(ctx, c.g);
-  fs_release(ctx, c.begin);
   fs_setup_free(ctx, &c.setup);
   fs_base_free(ctx, &c.base);
   return status;

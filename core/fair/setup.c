@@ -69,14 +69,12 @@ void fs_setup_free(fs_context *ctx, fs_setup *s) {
   fs_release(ctx, s->x);
   fs_release(ctx, s->g);
   fs_volume_free(s->volume);
-  fs_wall_free(s->wall);
   fs_problem_free(ctx, s->problem);
   s->problem = NULL;
   s->reduction = NULL;
   s->reduced = NULL;
   s->x = s->g = NULL;
   s->volume = NULL;
-  s->wall = NULL;
 }
 
 /* ---- fewer unknowns ---------------------------------------------------------------------------------------------- */
@@ -191,17 +189,13 @@ static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, dou
   double integral[FS_MAX_TERMS + 2];
   bool is_reduced = s->reduction != NULL, is_cheap = order == FS_HESSIAN && s->n_cheap_hessians > 0;
   int32_t level = s->problem->level;
-  double *full_g = g;
-  fs_sparse *full_hessian = hessian;
   fs_setup_place(s, x);
   if (is_cheap) {
     s->n_cheap_hessians--;
     FS_TRY(fs_problem_set_level(s->problem, 1));
   }
   FS_TRY(fs_progress(s->problem->ctx, "fairing", 0));
-  if (is_reduced) full_g = s->g, full_hessian = s->problem->pattern;
-  FS_TRY(evaluate(s, order, integral, NULL, f, full_g, full_hessian));
-  if (s->wall != NULL) FS_TRY(fs_wall_add(s->wall, order, f, full_g, full_hessian));
+  FS_TRY(evaluate(s, order, integral, NULL, f, is_reduced ? s->g : g, is_reduced ? s->problem->pattern : hessian));
   if (is_reduced && order >= FS_GRADIENT) fs_reduction_gather(s->reduction, s->g, g);
   if (is_reduced && order >= FS_HESSIAN)
     FS_TRY(fs_reduction_hessian(s->problem->ctx, s->reduction, s->problem->pattern, hessian));

@@ -145,9 +145,9 @@ typedef struct fs_fair_options {
   const fs_constraints *constraints;   /* NULL: none */
   int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction; 0: 8 on squares, 12 in caps; at most 32 */
   double max_seconds;                  /* 0: no limit */
-  int32_t max_iterations;    /* 0: 100, or 400 with a tolerance; negative: none, only the energies are reported */
-  double gradient_tolerance; /* relative to the start; 0: 1e-8 */
-  bool start_triharmonic;    /* begin at the minimum of the triharmonic functional (a linear problem) */
+  int32_t max_iterations;              /* 0: 100; negative: none, only the energies are reported */
+  double gradient_tolerance;           /* relative to the start; 0: 1e-8 */
+  bool start_triharmonic;              /* begin at the minimum of the triharmonic functional (a linear problem) */
   bool (*monitor)(void *user, const fs_step *step); /* called after every accepted step; false cancels */
   void *monitor_user;
 } fs_fair_options;

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* The SVG exporter: a drawing of the surface and the curves on it, by cairo. */
+#include "drawing.h"
+
+#include <cairo-svg.h>
+
+static fs_status write(fs_context *ctx, const fs_model *model, const double *param, const fs_output *output) {
+  return fs_drawing_write(ctx, model, param, output, "svg", cairo_svg_surface_create_for_stream);
+}
+
+const fs_exporter fs_exporter_svg = {
+    "svg", "svg", "SVG drawing: orthographic views of the surface and of curves on it, hidden lines removed",
+    fs_drawing_params, FS_EXPORT_SURFACE, write,
+};
