@@ -35,13 +35,12 @@ enum {
   KEY_WORST,
   KEY_COMPARE,
   KEY_CONSTRUCTION,
-  KEY_KIND,
   KEY_NORMALS,
   KEY_PARAM = 2000 /* + number of a parameter in the list below */
 };
 
 /* A parameter name of the tables; several exporters may share one. */
-enum { MAX_NAMES = 128, MAX_EVENTS = 256 };
+enum { MAX_NAMES = 64, MAX_EVENTS = 256 };
 typedef struct named_param {
   const fs_param *param;
   char doc[200];
@@ -93,7 +92,6 @@ static void collect_params(parser *p) {
   for (int i = 0; fs_refiners[i] != NULL; i++) add_params(p, fs_refiners[i]->name, fs_refiners[i]->params);
   for (int i = 0; fs_constructions[i] != NULL; i++)
     add_params(p, fs_constructions[i]->name, fs_constructions[i]->params);
-  for (int i = 0; fs_plots[i] != NULL; i++) add_params(p, fs_plots[i]->name, fs_plots[i]->params);
   for (int i = 0; fs_exporters[i] != NULL; i++) add_params(p, fs_exporters[i]->name, fs_exporters[i]->params);
 }
 
@@ -154,43 +152,12 @@ static void add_event(struct argp_state *state, parser *p, event e) {
   p->event[p->n_events++] = e;
 }
 
-static void print_version(void) {
-  bool is_reference;
-  const char *blas = fs_blas_name(&is_reference);
-  printf("fairsurf %s\nBLAS: %s%s\n", fs_version(), blas,
-         is_reference ? "\nwarning: this is the reference BLAS, several times slower: install libopenblas" : "");
-}
-
-static void print_list(void) {
-  printf("functionals:\n");
-  for (int i = 0; fs_functionals[i] != NULL; i++)
-    printf("  %-20s %s\n", fs_functionals[i]->name, fs_functionals[i]->summary);
-  printf("patch rules:\n");
-  for (int i = 0; fs_patch_rules[i] != NULL; i++)
-    printf("  %-20s %s\n", fs_patch_rules[i]->name, fs_patch_rules[i]->summary);
-  printf("refinements:\n");
-  for (int i = 0; fs_refiners[i] != NULL; i++) printf("  %-20s %s\n", fs_refiners[i]->name, fs_refiners[i]->summary);
-  printf("constructions:\n");
-  for (int i = 0; fs_constructions[i] != NULL; i++)
-    printf("  %-20s %s\n", fs_constructions[i]->name, fs_constructions[i]->summary);
-  printf("plots:\n");
-  for (int i = 0; fs_plots[i] != NULL; i++) printf("  %-20s %s\n", fs_plots[i]->name, fs_plots[i]->summary);
-  printf("readers:\n");
-  for (int i = 0; fs_readers[i] != NULL; i++) printf("  .%-19s %s\n", fs_readers[i]->extension, fs_readers[i]->summary);
-  printf("exporters:\n");
-  for (int i = 0; fs_exporters[i] != NULL; i++)
-    printf("  .%-19s %s\n", fs_exporters[i]->extension, fs_exporters[i]->summary);
-  printf("measures:\n");
-  for (int i = 0; fs_measures[i] != NULL; i++) printf("  %-20s %s\n", fs_measures[i]->name, fs_measures[i]->summary);
-}
-
 static command command_of(const char *text) {
   static const struct {
     const char *name;
     command command;
   } known[] = {{"info", COMMAND_INFO},     {"refine", COMMAND_REFINE}, {"fair", COMMAND_FAIR},
-               {"export", COMMAND_EXPORT}, {"patch", COMMAND_PATCH},   {"check", COMMAND_CHECK},
-               {"plot", COMMAND_PLOT}};
+               {"export", COMMAND_EXPORT}, {"patch", COMMAND_PATCH},   {"check", COMMAND_CHECK}};
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
     if (strcmp(known[i].name, text) == 0) return known[i].command;
   return COMMAND_NONE;
@@ -218,7 +185,6 @@ static void finish_outputs(struct argp_state *state, parser *p) {
     fill_params(state, p, o->exporter->params, i, o->param);
   }
   fill_params(state, p, a->functional->params, p->n_events, a->functional_param);
-  fill_params(state, p, a->plot->params, p->n_events, a->plot_param);
   fill_params(state, p, a->construction->params, p->n_events, a->construction_param);
   for (int i = 0; fs_refiners[i] != NULL; i++)
     if (strcmp(fs_refiners[i]->name, a->refiner) == 0)
@@ -243,12 +209,11 @@ static int32_t parse_order(struct argp_state *state, const char *text) {
 
 static void finish(struct argp_state *state, parser *p) {
   arguments *a = p->arguments;
-  if (a->command == COMMAND_NONE) argp_error(state, "a command is needed: info, refine, fair, export, patch, plot or check");
+  if (a->command == COMMAND_NONE) argp_error(state, "a command is needed: info, refine, fair, export, patch or check");
   if (a->mesh == NULL) argp_error(state, "a mesh is needed");
   finish_outputs(state, p);
   if (a->command == COMMAND_EXPORT && a->n_outputs == 0) argp_error(state, "export needs an output: -o FILE");
   if (a->command == COMMAND_PATCH && a->n_outputs == 0) argp_error(state, "patch needs an output: -o FILE");
-  if (a->command == COMMAND_PLOT && a->n_outputs == 0) argp_error(state, "plot needs an output: -o FILE");
   if (a->command == COMMAND_REFINE && a->n_outputs == 0) argp_error(state, "refine needs an output: -o FILE");
   if (a->command == COMMAND_CHECK) finish_check(state, p);
   if (a->no_refine && a->refine > 0) argp_error(state, "--refine and --no-refine exclude each other");
@@ -278,6 +243,9 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
       return 0;
     }
   switch (key) {
+  case ARGP_KEY_INIT:
+    state->child_inputs[0] = &a->constraints;
+    break;
   case 'o':
     add_event(state, p, (event){.name = -1, .text = text, .is_surface = p->is_surface, .colour = p->colour});
     break;
@@ -303,10 +271,6 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     a->construction = fs_construction_find(text);
     if (a->construction == NULL)
       argp_error(state, "--construction %s is unknown; fairsurf --list shows the known ones", text);
-    break;
-  case KEY_KIND:
-    a->plot = fs_plot_find(text);
-    if (a->plot == NULL) argp_error(state, "--kind %s is unknown; fairsurf --list shows the known plots", text);
     break;
   case KEY_NORMALS:
     a->normals = text;
@@ -372,7 +336,7 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     if (state->arg_num == 0) {
       a->command = command_of(text);
       if (a->command == COMMAND_NONE)
-        argp_error(state, "unknown command %s: info, refine, fair, export, patch, plot and check are known", text);
+        argp_error(state, "unknown command %s: info, refine, fair, export, patch and check are known", text);
     } else if (state->arg_num == 1) {
       a->mesh = text;
     } else {
@@ -411,7 +375,7 @@ static const struct argp_option fixed_options[] = {
     {"fixed", KEY_FIXED, "FILE", 0, "vertices that stay besides the rim: numbers from 0, one per line", 0},
     {"start", KEY_START, "WHAT", 0, "mesh: the given positions; triharmonic: the minimum of a linear problem", 0},
     {"nodes", KEY_NODES, "N", 0, "Gauss nodes per direction, everywhere (default: 8 on squares, 12 in caps)", 0},
-    {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100); 0 only measures", 0},
+    {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100, or 400 with --stay-within); 0 only measures", 0},
     {"threads", KEY_THREADS, "N", 0, "threads (1)", 0},
     {"blas-threads", KEY_BLAS_THREADS, "N", 0, "threads of the linear algebra (1)", 0},
     {NULL, 0, NULL, 0, "Patches:", 4},
@@ -422,8 +386,6 @@ static const struct argp_option fixed_options[] = {
      "g0, g1, g2 or g3 with --tolerance X (1e-6): exit with 5 where edges or vertices miss it", 0},
     {"worst", KEY_WORST, "N", 0, "length of the lists of the worst edges (10)", 0},
     {"compare", KEY_COMPARE, "START", 0, "measure START too, and say how the surface differs", 0},
-    {NULL, 0, NULL, 0, "Plots:", 4},
-    {"kind", KEY_KIND, "NAME", 0, "which curves plot draws (default: the first of --list)", 0},
     {NULL, 0, NULL, 0, "About:", 9},
     {"list", KEY_LIST, NULL, 0, "list functionals, rules, refinements, constructions, formats, measures", 0},
     {"version", 'V', NULL, 0, "print the version and the BLAS in use", 0},
@@ -439,7 +401,6 @@ void parse_arguments(int argc, char **argv, arguments *a) {
       "  fair MESH     move the free vertices to the fairest surface, write it\n"
       "  export MESH   write the surface as it is\n"
       "  patch MESH    write a surface through the vertices, made without fairing\n"
-      "  plot MESH     draw isophotes, zebra, lines of curvature, sections, … on the surface as it is\n"
       "  check FILE    measure how smoothly patches meet, curvatures, energies, self-intersections; FILE is a mesh or "
       "holds\n"
       "                patches; an -o shows the jumps as colours\n\n"
@@ -453,9 +414,8 @@ void parse_arguments(int argc, char **argv, arguments *a) {
   int n = 0;
   *a = (arguments){.functional = fs_functionals[0],
                    .construction = fs_constructions[0],
-                   .plot = fs_plots[0],
                    .refiner = "averaging",
-                   .max_iterations = 100,
+                   .max_iterations = -1,
                    .threads = 1,
                    .blas_threads = 1,
                    .require = -1,
@@ -464,12 +424,14 @@ void parse_arguments(int argc, char **argv, arguments *a) {
   collect_params(&p);
   for (int i = 0; i < N_FIXED_OPTIONS; i++) options[n++] = fixed_options[i];
   options[n++] =
-      (struct argp_option){.doc = "Parameters (of functionals, refinements, constructions, plots, file formats):", .group = 5};
+      (struct argp_option){.doc = "Parameters (of functionals, refinements, constructions, file formats):", .group = 5};
   for (int32_t i = 0; i < p.n_names; i++) {
     options[n++] =
         (struct argp_option){.name = p.name[i].param->name, .key = key_of(&p, i), .arg = "VALUE", .doc = p.name[i].doc};
   }
-  const struct argp argp = {.options = options, .parser = parse_option, .args_doc = "COMMAND MESH", .doc = doc};
+  const struct argp_child children[] = {{&constraint_argp, 0, "Constraints of fair:", 3}, {0}};
+  const struct argp argp = {
+      .options = options, .parser = parse_option, .args_doc = "COMMAND MESH", .doc = doc, .children = children};
   argp_err_exit_status = EXIT_USAGE;
   argp_parse(&argp, argc, argv, 0, NULL, &p);
 }

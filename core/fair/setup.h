@@ -3,6 +3,7 @@
 #ifndef FS_FAIR_SETUP_H
 #define FS_FAIR_SETUP_H
 
+#include "fair/wall.h"
 #include "fair/problem.h"
 #include "fair/reduce.h"
 #include "fair/volume.h"
@@ -23,6 +24,7 @@ typedef struct fs_setup {
                                for steps that are corrected by gradients */
   fs_volume *volume; /* where it is kept, V^(2/3) times volume_factor stands for the area in the functional; or NULL */
   double volume_sign, volume_factor;
+  fs_wall *wall; /* added to the functional; or NULL */
   double *x, *g; /* [3 n_free] with a reduction: the free dofs and their gradient */
 } fs_setup;
 

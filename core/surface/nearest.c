@@ -161,10 +161,11 @@ static void minimise(const fs_surface *surface, fs_vec3 q, place *at) {
   int32_t n_sides = surface->patch[at->patch].n_sides;
   for (int step = 0; step < MAX_NEWTON; step++) {
     double du, dv, scale = 1;
-    bool is_lower = false;
+    bool is_lower = false, is_last;
     find_step(at, n_sides, q, &du, &dv);
     if (!(fabs(du) + fabs(dv) > 1e-15)) return;
-    for (int k = 0; k < MAX_HALVINGS && !is_lower; k++, scale *= 0.5) {
+    is_last = fabs(du) + fabs(dv) < 1e-7; /* the next one would be of the size of rounding */
+    for (int k = 0; k < (is_last ? 1 : MAX_HALVINGS) && !is_lower; k++, scale *= 0.5) {
       double u = at->u + scale * du, v = at->v + scale * dv;
       place next;
       clamp(n_sides, &u, &v);
@@ -172,7 +173,7 @@ static void minimise(const fs_surface *surface, fs_vec3 q, place *at) {
       is_lower = next.f < at->f;
       if (is_lower) *at = next;
     }
-    if (!is_lower) return;
+    if (!is_lower || is_last) return;
   }
 }
 

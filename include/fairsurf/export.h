@@ -4,7 +4,6 @@
 #define FAIRSURF_EXPORT_H
 
 #include <fairsurf/analyse.h>
-#include <fairsurf/analyse_curves.h>
 #include <fairsurf/fair.h>
 
 #ifdef __cplusplus
@@ -18,7 +17,6 @@ typedef struct fs_model {
   const fs_mesh *control; /* the control net, with the positions to write */
   const fs_surface *surface;
   const fs_measure *colour;
-  const fs_curves *curves; /* on the surface, for exporters that draw; or NULL */
   const uint8_t *fixed; /* [n_vertices] of control: 1 where fairing kept the vertex */
   const fs_cap_notes
       *caps;             /* inner coefficients that make the surface together with control; NULL: its caps are linear */

@@ -101,7 +101,7 @@ static double integral_of(fs_context *ctx, const fs_space *space, const fs_densi
   bool *fixed = calloc((size_t)space->n_dofs, sizeof *fixed);
   fs_fair_options options = {.functional = &functional, .fixed = fixed, .n_nodes_square = 4, .n_nodes_cap = 4};
   fs_energy energy;
-  fixed[0] = true; /* so that no functional objects to a closed surface */
+  fixed[0] = fixed[space->n_vertices - 1] = true; /* so that no functional objects to a closed surface */
   assert_int_equal(fs_fair_energy(ctx, space, &options, c, &energy), FS_OK);
   free(fixed);
   return energy.F;
