@@ -19,6 +19,7 @@ static const double WALL_EXCESS = 0.004; /* relative to the tolerance */
 
 /* Fewer free dofs are quicker at once; and the least number of coarse unknowns that is worth having. */
 enum { LEAST_FREE = 1500, LEAST_COARSE = 200 };
+static const double FINER_DAMPING = 1e-6; /* to begin with after a coarser mesh */
 
 /* The whole fairing. */
 typedef struct course {
@@ -94,6 +95,7 @@ static fs_status enter_depth(course *c, int32_t depth) {
   if (c->solver != NULL && c->depth == depth) return FS_OK;
   leave_depth(c);
   c->damping.is_factored = false;
+  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = fmin(c->damping.nu, FINER_DAMPING)};
   if (depth > 0) {
     reduction = c->coarse[depth - 1];
     c->coarse[depth - 1] = NULL;

@@ -92,7 +92,7 @@ static fs_status find_step(fs_context *ctx, const fs_objective *o, state *t, fs_
       goto done;
     }
     t->nu_failed = fmax(t->nu_failed, t->nu);
-    t->nu = t->nu == 0 ? 1e-9 : t->nu * 10;
+    t->nu = t->nu == 0 ? 1e-9 : t->nu * (t->nu < 1e-4 ? 10 : 4);
   }
   fs_memory_clear(&t->memory);
   FS_TRY(solve(ctx, o, t, t->g, t->s));
@@ -102,9 +102,9 @@ done:
 }
 
 static void lower_damping(state *t, double gain) {
-  if (fabs(gain - 1) < 0.002 && t->nu_failed == 0)
+  if (fabs(gain - 1) < 0.002)
     t->nu *= 1e-4;
-  else if (fabs(gain - 1) < 0.03)
+  else if (gain > 0.9)
     t->nu *= 0.01;
   else if (gain > 0.75)
     t->nu *= 0.1;
