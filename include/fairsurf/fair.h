@@ -44,7 +44,7 @@ typedef struct fs_scale {
 } fs_scale;
 
 /* A function of integrals. Lines of a table. */
-enum { FS_MAX_TERMS = 6 };
+enum { FS_MAX_TERMS = 8 };
 typedef struct fs_functional {
   const char *name, *summary;
   const fs_param *params; /* ends with a NULL name; may be NULL */
@@ -94,8 +94,18 @@ typedef struct fs_energy {
   double integral[FS_MAX_TERMS], integral_caps[FS_MAX_TERMS]; /* of each term, unweighted; the part on caps */
   double weight[FS_MAX_TERMS];                                /* derivatives of the functional by the integrals */
   double S, S_caps, Q; /* curvature variation, its part on caps, tangential part; whatever the functional is */
-  double gradient;     /* Euclidean norm of the gradient of F by the free dofs */
+  double gradient; /* Euclidean norm of the gradient of F by the unknowns: the free dofs, or what constraints leave */
 } fs_energy;
+
+/* How far these numbers can be trusted, and how even the parametrisation is. */
+typedef struct fs_quality {
+  int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction of this measurement */
+  double S, S_caps;                    /* the curvature variation by them */
+  double area;
+  double
+      least_density; /* least |p_u x p_v| by its mean over the surface: near 0 where the surface folds over or pinches */
+  int32_t face;      /* where that is */
+} fs_quality;
 
 /* ---- constraints: what the surface must keep besides its fixed dofs [docs/constraints.md] ---- */
 
@@ -174,6 +184,7 @@ typedef struct fs_fair_report {
   double kept; /* where nothing is fixed: the area or the volume at the end, divided by that at the start, minus 1 */
   double c;    /* weight of Q in F; 0 where the functional has no such term */
   fs_energy start, end;
+  fs_quality quality; /* of the result, by 12 nodes on squares and 24 in caps */
   int32_t n_trace;
   fs_step trace[FS_MAX_TRACE]; /* the start and the first accepted steps */
 } fs_fair_report;
@@ -181,6 +192,9 @@ typedef struct fs_fair_report {
 /* Moves the free dofs of c[n_dofs] (in: a start, for example space->start; out: the result) to a minimum of the
    functional: Levenberg-Marquardt with gain ratio, Newton steps at the end, exact Hessians [Kiciak 2013; docs/].
    Cancelling by monitor or by ctx->progress keeps the best iterate: FS_OK and stop = FS_STOP_CANCELLED.
+   Constraints are met by the result however it ends; where the start does not meet them it is moved first. One that contradicts
+   others is FS_ERR_ARGUMENT with its name; one that follows from others is left out, with a note. A tolerance that the start
+   exceeds, and constraints that leave the size free, are FS_ERR_UNSUPPORTED.
    No free dof: FS_OK, nothing moves. A functional of order above continuity + 1 is FS_ERR_UNSUPPORTED.
    A surface that is not regular at a quadrature node at the start (p_u x p_v = 0) is FS_ERR_NUMERIC, with the face. */
 FS_API fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options *options, fs_vec3 *c,
@@ -189,6 +203,10 @@ FS_API fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_o
 /* The energies of the surface with dofs c; F and gradient by options as fs_fair has them. */
 FS_API fs_status fs_fair_energy(fs_context *ctx, const fs_space *space, const fs_fair_options *options,
                                 const fs_vec3 *c, fs_energy *energy);
+
+/* Measures the surface with dofs c by a quadrature of its own; 0 nodes: 12 on squares, 24 in caps; at most 32. */
+FS_API fs_status fs_fair_quality(fs_context *ctx, const fs_space *space, const fs_vec3 *c, int32_t n_nodes_square,
+                                 int32_t n_nodes_cap, fs_quality *quality);
 
 /* Name of the BLAS library that the solver runs on, for example a path; and whether it is the slow reference one. */
 FS_API const char *fs_blas_name(bool *is_reference);
