@@ -36,10 +36,6 @@ enum {
   KEY_COMPARE,
   KEY_CONSTRUCTION,
   KEY_NORMALS,
-  KEY_POLISH,
-  KEY_MAX_TIME,
-  KEY_STOP_DECREASE,
-  KEY_EVERY,
   KEY_PARAM = 2000 /* + number of a parameter in the list below */
 };
 
@@ -151,17 +147,37 @@ static int32_t parse_integer(struct argp_state *state, const char *option, const
   return (int32_t)value;
 }
 
-static double parse_real(struct argp_state *state, const char *option, const char *text, double min, double max) {
-  char *end;
-  double value = strtod(text, &end);
-  if (end == text || *end != '\0' || !(value >= min && value <= max))
-    argp_error(state, "--%s %s: a number from %g to %g is needed", option, text, min, max);
-  return value;
-}
-
 static void add_event(struct argp_state *state, parser *p, event e) {
   if (p->n_events == MAX_EVENTS) argp_error(state, "more than %d settings and outputs", MAX_EVENTS);
   p->event[p->n_events++] = e;
+}
+
+static void print_version(void) {
+  bool is_reference;
+  const char *blas = fs_blas_name(&is_reference);
+  printf("fairsurf %s\nBLAS: %s%s\n", fs_version(), blas,
+         is_reference ? "\nwarning: this is the reference BLAS, several times slower: install libopenblas" : "");
+}
+
+static void print_list(void) {
+  printf("functionals:\n");
+  for (int i = 0; fs_functionals[i] != NULL; i++)
+    printf("  %-20s %s\n", fs_functionals[i]->name, fs_functionals[i]->summary);
+  printf("patch rules:\n");
+  for (int i = 0; fs_patch_rules[i] != NULL; i++)
+    printf("  %-20s %s\n", fs_patch_rules[i]->name, fs_patch_rules[i]->summary);
+  printf("refinements:\n");
+  for (int i = 0; fs_refiners[i] != NULL; i++) printf("  %-20s %s\n", fs_refiners[i]->name, fs_refiners[i]->summary);
+  printf("constructions:\n");
+  for (int i = 0; fs_constructions[i] != NULL; i++)
+    printf("  %-20s %s\n", fs_constructions[i]->name, fs_constructions[i]->summary);
+  printf("readers:\n");
+  for (int i = 0; fs_readers[i] != NULL; i++) printf("  .%-19s %s\n", fs_readers[i]->extension, fs_readers[i]->summary);
+  printf("exporters:\n");
+  for (int i = 0; fs_exporters[i] != NULL; i++)
+    printf("  .%-19s %s\n", fs_exporters[i]->extension, fs_exporters[i]->summary);
+  printf("measures:\n");
+  for (int i = 0; fs_measures[i] != NULL; i++) printf("  %-20s %s\n", fs_measures[i]->name, fs_measures[i]->summary);
 }
 
 static command command_of(const char *text) {
@@ -255,9 +271,6 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
       return 0;
     }
   switch (key) {
-  case ARGP_KEY_INIT:
-    state->child_inputs[0] = &a->constraints;
-    break;
   case 'o':
     add_event(state, p, (event){.name = -1, .text = text, .is_surface = p->is_surface, .colour = p->colour});
     break;
@@ -304,18 +317,6 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     break;
   case KEY_ITERATIONS:
     a->max_iterations = parse_integer(state, "max-iterations", text, 0, INT_MAX);
-    break;
-  case KEY_POLISH:
-    a->polish = true;
-    break;
-  case KEY_MAX_TIME:
-    a->max_seconds = parse_real(state, "max-time", text, 1e-3, 1e9);
-    break;
-  case KEY_STOP_DECREASE:
-    a->stop_decrease = parse_real(state, "stop-decrease", text, 1e-15, 1);
-    break;
-  case KEY_EVERY:
-    a->every = text;
     break;
   case KEY_THREADS:
     a->threads = parse_integer(state, "threads", text, 1, 64);
@@ -399,12 +400,7 @@ static const struct argp_option fixed_options[] = {
     {"fixed", KEY_FIXED, "FILE", 0, "vertices that stay besides the rim: numbers from 0, one per line", 0},
     {"start", KEY_START, "WHAT", 0, "mesh: the given positions; triharmonic: the minimum of a linear problem", 0},
     {"nodes", KEY_NODES, "N", 0, "Gauss nodes per direction, everywhere (default: 8 on squares, 12 in caps)", 0},
-    {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100, or 400 with --stay-within); 0 only measures", 0},
-    {"polish", KEY_POLISH, NULL, 0, "go on with a hundredth of C: a little fairer, takes longer", 0},
-    {"max-time", KEY_MAX_TIME, "SECONDS", 0, "stop after so many seconds with the best surface so far", 0},
-    {"stop-decrease", KEY_STOP_DECREASE, "PART", 0, "stop when a step promises less than this part of the functional",
-     0},
-    {"every", KEY_EVERY, "FOLDER", 0, "write every iterate as FOLDER/iter0000.ply, …", 0},
+    {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100); 0 only measures", 0},
     {"threads", KEY_THREADS, "N", 0, "threads (1)", 0},
     {"blas-threads", KEY_BLAS_THREADS, "N", 0, "threads of the linear algebra (1)", 0},
     {NULL, 0, NULL, 0, "Patches:", 4},
@@ -444,7 +440,7 @@ void parse_arguments(int argc, char **argv, arguments *a) {
   *a = (arguments){.functional = fs_functionals[0],
                    .construction = fs_constructions[0],
                    .refiner = "averaging",
-                   .max_iterations = -1,
+                   .max_iterations = 100,
                    .threads = 1,
                    .blas_threads = 1,
                    .require = -1,
@@ -458,9 +454,7 @@ void parse_arguments(int argc, char **argv, arguments *a) {
     options[n++] =
         (struct argp_option){.name = p.name[i].param->name, .key = key_of(&p, i), .arg = "VALUE", .doc = p.name[i].doc};
   }
-  const struct argp_child children[] = {{&constraint_argp, 0, "Constraints of fair:", 3}, {0}};
-  const struct argp argp = {
-      .options = options, .parser = parse_option, .args_doc = "COMMAND MESH", .doc = doc, .children = children};
+  const struct argp argp = {.options = options, .parser = parse_option, .args_doc = "COMMAND MESH", .doc = doc};
   argp_err_exit_status = EXIT_USAGE;
   argp_parse(&argp, argc, argv, 0, NULL, &p);
 }

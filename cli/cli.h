@@ -5,7 +5,6 @@
 
 #include <fairsurf/fairsurf.h>
 #include <stdio.h>
-#include "constraints.h"
 
 enum { EXIT_REFUSED = 1, EXIT_USAGE = 2, EXIT_NUMERIC = 3, EXIT_FILE = 4, EXIT_FAILED = 5, EXIT_CANCELLED = 130 };
 enum { MAX_OUTPUTS = 64, MAX_PARAM_VALUES = 24 };
@@ -36,17 +35,13 @@ typedef struct arguments {
   output_request output[MAX_OUTPUTS];
   const char *name;           /* of the object in the files, or NULL: the stem */
   const char *fixed, *report; /* files, or NULL */
-  const char *every;          /* folder for every iterate, or NULL */
-  bool json, no_refine, quiet, start_triharmonic, polish;
-  double max_seconds, stop_decrease; /* 0: no limit, that of the library */
-  int32_t refine, nodes, threads, blas_threads;
-  int32_t max_iterations; /* 0 only measures; -1: as many as the library thinks fit */
-  int32_t caps;           /* one of fs_cap_inner, or -1: what suits the functional and the file */
-  const char *refiner;    /* of the command refine */
+  bool json, no_refine, quiet, start_triharmonic;
+  int32_t refine, nodes, max_iterations, threads, blas_threads;
+  int32_t caps;        /* one of fs_cap_inner, or -1: what suits the functional and the file */
+  const char *refiner; /* of the command refine */
   double refiner_param[MAX_PARAM_VALUES];
   const fs_functional *functional;
   double functional_param[MAX_PARAM_VALUES];
-  constraint_arguments constraints;
   const fs_construction *construction; /* of the command patch */
   double construction_param[MAX_PARAM_VALUES];
   const char *normals; /* file, or NULL */
@@ -58,9 +53,6 @@ typedef struct arguments {
 
 /* Fills the arguments or leaves the program: 0 after --help and --version, 2 with a sentence where they are wrong. */
 void parse_arguments(int argc, char **argv, arguments *arguments);
-
-void print_version(void); /* with the BLAS in use */
-void print_list(void);    /* of the tables of the library */
 
 /* Exit code of a status. */
 int exit_code(fs_status status);
@@ -96,17 +88,7 @@ typedef struct timings {
 /* The report of fairing as JSON, 17 digits; written beside and renamed. */
 fs_status write_report(fs_context *ctx, const char *path, const arguments *arguments, const fs_fair_report *report,
                        const timings *seconds);
-void print_report(FILE *file, const arguments *arguments, const fs_fair_report *report, const timings *seconds);
-
-/* Every iterate as a file: what --every asks for. */
-typedef struct iterates {
-  const char *folder; /* NULL: none */
-  const fs_mesh *mesh;
-  const fs_space *space;
-  fs_status status; /* of the first file that could not be written */
-} iterates;
-fs_status begin_iterates(fs_context *ctx, iterates *iterates); /* makes the folder where it is not there */
-bool write_iterate(fs_context *ctx, iterates *iterates, const fs_step *step, const fs_vec3 *c); /* false: not written */
+void print_report(FILE *file, const fs_fair_report *report, const timings *seconds);
 
 double now(void); /* seconds of a steady clock */
 

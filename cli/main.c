@@ -22,19 +22,12 @@ static bool go_on(void *user, const char *stage, double fraction) {
   return !is_interrupted;
 }
 
-/* What looks on while fairing goes on. */
-typedef struct onlooker {
-  bool is_shown;
-  fs_context *ctx;
-  iterates iterates;
-} onlooker;
-
-static bool show_step(void *user, const fs_step *s, const fs_vec3 *c) {
-  onlooker *o = user;
-  if (o->is_shown)
+static bool show_step(void *user, const fs_step *s) {
+  const bool *is_shown = user;
+  if (*is_shown)
     fprintf(stderr, "\r%3d  F %-18.12g gradient %-10.3g damping %-9.2g %6.1f s ", s->number, s->value, s->gradient,
             s->damping, s->seconds);
-  return write_iterate(o->ctx, &o->iterates, s, c) && !is_interrupted;
+  return !is_interrupted;
 }
 
 static void print_note(void *user, const char *text) {
@@ -72,7 +65,6 @@ typedef struct job {
   fs_surface *surface;
   bool *fixed;
   fs_vec3 *c;
-  constraint_set constraints;
   fs_cap_notes *caps; /* what c holds behind the vertices, or NULL */
   fs_fair_report report;
   timings seconds;
@@ -151,30 +143,22 @@ static fs_status add_marks(job *j) {
 
 static fs_status make_fair(job *j) {
   const arguments *a = j->arguments;
-  onlooker o = {isatty(STDERR_FILENO) && !a->quiet, j->ctx, {a->every, j->fine, j->space, FS_OK}};
+  bool is_shown = isatty(STDERR_FILENO) && !a->quiet;
   fs_fair_options options = {.functional = a->functional,
                              .param = a->functional_param,
-                             .mesh = j->fine,
                              .fixed = j->fixed,
                              .n_nodes_square = a->nodes,
                              .n_nodes_cap = a->nodes,
-                             .constraints = &j->constraints.constraints,
-                             .max_iterations = a->max_iterations > 0 ? a->max_iterations : -1 - a->max_iterations,
-                             .max_seconds = a->max_seconds,
-                             .decrease_tolerance = a->stop_decrease,
-                             .polish = a->polish,
+                             .max_iterations = a->max_iterations == 0 ? -1 : a->max_iterations,
                              .start_triharmonic = a->start_triharmonic,
-                             .iterate = show_step,
-                             .monitor_user = &o};
+                             .monitor = show_step,
+                             .monitor_user = &is_shown};
   fs_status status;
   TRY(fs_space_rim(j->ctx, j->fine, j->space, j->fixed));
   TRY(add_marks(j));
-  TRY(make_constraints(j->ctx, &a->constraints, j->fine, j->space, j->c, j->n_steps > 0, j->fixed, &j->constraints));
   fs_space_fix_caps(j->space, j->fixed);
-  if (a->every != NULL) TRY(begin_iterates(j->ctx, &o.iterates));
   status = fs_fair(j->ctx, j->space, &options, j->c, &j->report);
-  if (o.is_shown) fprintf(stderr, "\n");
-  if (status == FS_OK) TRY(o.iterates.status);
+  if (is_shown) fprintf(stderr, "\n");
   if (status == FS_OK && j->report.n_free == 0) print_note(NULL, "no vertex is free: the surface stays as it is");
   if (j->report.stop == FS_STOP_CANCELLED) print_note(NULL, "cancelled: the best surface so far is written");
   return status;
@@ -186,7 +170,6 @@ static fs_status write_outputs(job *j) {
   memcpy(j->control->position, j->c, (size_t)j->control->n_vertices * sizeof *j->c);
   TRY(fs_space_keep_caps(j->ctx, j->control, j->space, j->c, &j->caps));
   TRY(fs_surface_create(j->ctx, j->space, j->c, &j->surface));
-  if (j->constraints.symmetry != NULL) TRY(fs_surface_mirror(j->ctx, j->constraints.symmetry, j->surface));
   for (int32_t i = 0; i < a->n_outputs; i++) {
     const output_request *o = &a->output[i];
     bool is_surface = o->is_surface || o->exporter->what == FS_EXPORT_SURFACE;
@@ -240,8 +223,6 @@ static void describe(job *j) {
          a->functional->params != NULL && a->functional->params[i].name != NULL && used < (int)sizeof j->made_with; i++)
       used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, " %s=%g", a->functional->params[i].name,
                        a->functional_param[i]);
-    if (a->polish && used < (int)sizeof j->made_with)
-      snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, " polished");
   }
 }
 
@@ -267,14 +248,13 @@ static fs_status run(job *j) {
   j->seconds.total = t - start;
   if (a->command == COMMAND_FAIR) {
     if (a->report != NULL) TRY(write_report(j->ctx, a->report, a, &j->report, &j->seconds));
-    if (!a->quiet) print_report(stderr, a, &j->report, &j->seconds);
+    if (!a->quiet) print_report(stderr, &j->report, &j->seconds);
   }
   return FS_OK;
 }
 
 static void job_free(job *j) {
   fs_surface_free(j->ctx, j->surface);
-  free_constraints(j->ctx, &j->constraints);
   fs_cap_notes_free(j->ctx, j->caps);
   fs_space_free(j->ctx, j->space);
   for (int32_t s = 0; s < j->n_steps; s++) fs_refinement_free(j->ctx, j->step[s]);

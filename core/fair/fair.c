@@ -4,22 +4,23 @@
    A functional with a continued parameter C (curvature variation) is minimised for C = 1e-2, 1e-3, … down to its value: few
    Newton-like steps each, and a unique result, where the last C alone would need many and may end elsewhere. All but the last
    stage stop early, and run with few quadrature nodes, as does the way to the neighbourhood of a minimum; the last steps see
-   all nodes and converge quadratically. As C falls, minima turn into saddles, at which symmetric surfaces would stay: where
-   the last factorisation of a stage does not show a minimum, fs_leave_saddle looks for the way down. */
+   all nodes and converge quadratically. */
 #include "fair/constrain.h"
-#include "fair/stages.h"
 #include "fair/stay_near.h"
 
 #include <math.h>
 #include <string.h>
 #include <time.h>
 
-enum { MAX_ITERATIONS = 100, MAX_SADDLES = 4, MAX_ROUNDS = 12, WALL_SHARE = 100 };
+enum { MAX_ITERATIONS = 100, MAX_STAGES = 24, MAX_ROUNDS = 12, WALL_SHARE = 100 };
 static const double WALL_EXCESS = 0.004; /* relative to the tolerance */
 
-/* Fewer free dofs are quicker at once; and the least number of coarse unknowns that is worth having. */
-enum { LEAST_FREE = 1500, LEAST_COARSE = 200 };
-static const double FINER_DAMPING = 1e-6; /* to begin with after a coarser mesh */
+typedef struct stage {
+  double C;         /* first parameter of the functional */
+  int32_t level;    /* of quadrature: 1 few nodes, 0 all */
+  double tolerance; /* predicted decrease, relative */
+  bool is_last;
+} stage;
 
 /* The whole fairing. */
 typedef struct course {
@@ -27,24 +28,40 @@ typedef struct course {
   const fs_fair_options *options;
   fs_fair_report *report;
   fs_setup setup;
-  fs_base base;     /* with linear constraints: the dofs by fewer numbers */
-  int32_t n_coarse; /* depths that there are */
-  fs_reduction *coarse[FS_MAX_COARSE];
-  int32_t depth; /* of the solver and the unknowns */
+  fs_base base; /* with linear constraints: the dofs by fewer numbers */
   fs_solver *solver;
   fs_damping damping;
-  double *x, *y, *g, gradient_start; /* x: the unknowns of depth 0; y: those of others, while they are */
-  double *begin, excess;             /* with a wall: x at the start, and how far samples are beyond it */
-  int32_t n_rounds;                  /* so many times the last stage was begun with the same wall */
+  double *x, *g, gradient_start;
+  double *begin, excess; /* with a wall: x at the start, and how far samples are beyond it */
+  int32_t n_rounds;      /* so many times the last stage was begun with the same wall */
   struct timespec start;
   int32_t n_earlier_steps; /* of the stages before */
-  int32_t n_stages;        /* before */
-  double last_damping;     /* in the last factorisation */
-  double value;            /* at x */
   bool is_out_of_time;
 } course;
 
 /* ---- stages ------------------------------------------------------------------------------------------------------ */
+
+static bool is_quadratic(const fs_functional *functional) {
+  if (!functional->is_linear) return false;
+  for (int32_t t = 0; t < functional->n_terms; t++)
+    if (!functional->term[t]->is_quadratic) return false;
+  return true;
+}
+
+static int32_t plan_stages(const fs_setup *s, stage *stages) {
+  int32_t n = 0;
+  double last = s->param[0], first = s->functional->is_continued && last < 1e-2 ? 1e-2 : last;
+  if (is_quadratic(s->functional)) {
+    stages[n++] = (stage){last, 0, 1e-12, true};
+    return n;
+  }
+  stages[n++] = (stage){first, 1, first == last ? 1e-2 : 1e-3, false};
+  for (double C = first / 10; C > 1.0001 * last && n < MAX_STAGES - 4; C /= 10)
+    stages[n++] = (stage){C, 1, 1e-3, false};
+  if (first != last) stages[n++] = (stage){last, 1, 1e-3, false};
+  stages[n++] = (stage){last, 0, 1e-12, true};
+  return n;
+}
 
 static double seconds_since(const struct timespec *start) {
   struct timespec now;
@@ -54,9 +71,7 @@ static double seconds_since(const struct timespec *start) {
 
 static bool record(void *user, const fs_minimise_step *m) {
   course *c = user;
-  const fs_fair_options *options = c->options;
   fs_step step = {.number = m->number + c->n_earlier_steps,
-                  .stage = c->n_stages,
                   .value = m->value,
                   .gradient = m->gradient,
                   .damping = m->damping,
@@ -66,48 +81,10 @@ static bool record(void *user, const fs_minimise_step *m) {
                   .seconds = seconds_since(&c->start),
                   .c = fs_setup_c(&c->setup)};
   if (m->number == 0 && c->n_earlier_steps > 0) return true; /* the start of a later stage */
-  c->last_damping = m->damping;
   if (c->report->n_trace < FS_MAX_TRACE) c->report->trace[c->report->n_trace++] = step;
-  if (options->iterate != NULL) {
-    fs_setup_place(&c->setup, c->depth > 0 ? c->y : c->x);
-    if (!options->iterate(options->monitor_user, &step, c->setup.problem->c)) return false;
-  }
-  if (options->monitor != NULL && !options->monitor(options->monitor_user, &step)) return false;
-  c->is_out_of_time = options->max_seconds > 0 && step.seconds >= options->max_seconds;
-  return !c->is_out_of_time;
-}
-
-/* Back to depth 0. */
-static void leave_depth(course *c) {
-  fs_solver_free(c->ctx, c->solver);
-  c->solver = NULL;
-  fs_release(c->ctx, c->y);
-  c->y = NULL;
-  if (c->depth == 0) return;
-  fs_setup_reduce(&c->setup, NULL);
-  c->depth = 0;
-}
-
-/* The unknowns become displacements of the mesh so many refinements before, from x on. */
-static fs_status enter_depth(course *c, int32_t depth) {
-  fs_status status = FS_OK;
-  fs_reduction *reduction;
-  if (c->solver != NULL && c->depth == depth) return FS_OK;
-  leave_depth(c);
-  c->damping.is_factored = false;
-  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = fmin(c->damping.nu, FINER_DAMPING)};
-  if (depth > 0) {
-    reduction = c->coarse[depth - 1];
-    c->coarse[depth - 1] = NULL;
-    c->depth = depth;
-    memcpy(reduction->x0, c->x, 3 * (size_t)reduction->n_rows * sizeof *c->x);
-    FS_TRY(fs_setup_reduce(&c->setup, reduction));
-    FS_TRY(fs_problem_reduce(c->setup.problem, reduction));
-    FS_ALLOC(c->ctx, c->y, 3 * (size_t)reduction->n_columns);
-  }
-  FS_TRY(fs_solver_create(c->ctx, fs_setup_pattern(&c->setup), &c->solver));
-done:
-  return status;
+  c->is_out_of_time = c->options->max_seconds > 0 && step.seconds >= c->options->max_seconds;
+  if (c->is_out_of_time) return false;
+  return c->options->monitor == NULL || c->options->monitor(c->options->monitor_user, &step);
 }
 
 /* A stiffness of the wall at which going as far again beyond it everywhere would cost many times the functional. */
@@ -125,10 +102,11 @@ static fs_status stiffen_wall(course *c, const fs_objective *objective) {
   return FS_OK;
 }
 
-static fs_status minimise(course *c, const fs_stage *stage, const fs_objective *objective, bool *is_over) {
+static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
   fs_status status = FS_OK;
   const fs_fair_options *options = c->options;
   int32_t max_iterations = options->max_iterations;
+  fs_objective objective = fs_setup_objective(&c->setup, c->solver);
   fs_minimise_report m;
   if (max_iterations == 0) max_iterations = c->setup.wall != NULL ? 4 * MAX_ITERATIONS : MAX_ITERATIONS;
   fs_minimise_options o = {.max_iterations = max_iterations - c->n_earlier_steps,
@@ -137,77 +115,37 @@ static fs_status minimise(course *c, const fs_stage *stage, const fs_objective *
                            .least_damping = c->setup.functional->is_scale_free || c->setup.wall != NULL ? 1e-10 : 0,
                            .monitor = record,
                            .user = c};
-  if (c->setup.wall != NULL) { /* the forces of the wall change after each stage */
-    o.decrease_tolerance = fmax(o.decrease_tolerance, 1e-7);
-  } else if (stage->is_last && stage->tolerance <= 1e-12) {
+  if (stage->is_last) {
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
     o.gradient_start = c->gradient_start;
   }
-  FS_TRY(fs_minimise(c->ctx, objective, &o, c->depth > 0 ? c->y : c->x, &m));
-  c->value = m.value;
+  c->setup.n_cheap_hessians = stage->is_last && stage->level == 0;
+  c->setup.param[0] = stage->C;
+  FS_TRY(fs_problem_set_level(c->setup.problem, stage->level));
+  if (c->setup.wall != NULL && c->n_rounds == 0) FS_TRY(stiffen_wall(c, &objective));
+  FS_TRY(fs_minimise(c->ctx, &objective, &o, c->x, &m));
   c->n_earlier_steps += m.n_steps;
   c->report->n_steps += m.n_steps;
   c->report->n_hessians += m.n_hessians;
   c->report->n_factorisations += m.n_factorisations;
   c->report->stop = c->is_out_of_time ? FS_STOP_TIME : (fs_stop)m.stop;
   *is_over = m.stop == FS_MINIMISE_CANCELLED || m.stop == FS_MINIMISE_ITERATIONS;
-done:
-  return status;
-}
-
-/* From a stationary point that need not be a minimum. *has_moved: far enough for the stage to go on. */
-static fs_status leave_saddle(course *c, const fs_objective *objective, double tolerance, bool *has_moved) {
-  fs_status status = FS_OK;
-  fs_saddle_report saddle = {0};
-  c->setup.n_cheap_hessians = 0;
-  c->damping = (fs_damping){0};
-  FS_TRY(fs_leave_saddle(c->ctx, objective, &c->damping.nu, c->x, &saddle));
-  c->report->n_hessians++;
-  c->report->n_factorisations += saddle.n_factorisations;
-  c->report->n_saddles += saddle.has_moved;
-  *has_moved = saddle.decrease > tolerance * fabs(c->value);
-done:
-  return status;
-}
-
-static fs_status run_stage(course *c, const fs_stage *stage, bool *is_over) {
-  fs_status status = FS_OK;
-  fs_objective objective;
-  bool has_moved = true;
-  c->setup.n_cheap_hessians = stage->is_last && stage->level == 0;
-  c->setup.param[0] = stage->C;
-  FS_TRY(fs_problem_set_level(c->setup.problem, stage->level));
-  FS_TRY(enter_depth(c, stage->depth));
-  objective = fs_setup_objective(&c->setup, c->solver);
-  if (c->setup.wall != NULL && c->n_rounds == 0) FS_TRY(stiffen_wall(c, &objective));
-  for (int32_t round = 0; has_moved && !*is_over; round++) {
-    FS_TRY(minimise(c, stage, &objective, is_over));
-    has_moved = false;
-    if (*is_over || !stage->is_minimum || c->setup.wall != NULL || round == MAX_SADDLES ||
-        c->last_damping <= FS_DEFINITE_DAMPING)
-      break;
-    FS_TRY(leave_saddle(c, &objective, stage->tolerance, &has_moved));
-  }
-  fs_setup_place(&c->setup, c->depth > 0 ? c->y : c->x);
+  fs_setup_place(&c->setup, c->x);
   if (c->setup.wall != NULL) FS_TRY(fs_wall_learn(c->setup.wall, &c->excess));
 done:
-  c->n_stages++;
-  if (c->y != NULL) fs_reduction_apply(c->setup.reduction, c->y, c->x);
-  if (status == FS_ERR_CANCELLED) { /* c->x is the best point met */
-    c->report->stop = FS_STOP_CANCELLED;
-    *is_over = true;
-    status = FS_OK;
-  }
   return status;
 }
 
 /* Repeats the last stage until the forces hold the surface at the wall; what then still is beyond the tolerance goes back
    towards the start. */
-static fs_status press_to_wall(course *c, const fs_stage *last, bool is_over) {
+static fs_status press_to_wall(course *c, const stage *last, bool is_over) {
   fs_status status = FS_OK;
   fs_wall *wall = c->setup.wall;
   double tolerance = c->options->constraints->tolerance, distance, before;
+  stage round = *last;
   int32_t face;
+  round.tolerance = 1e-7;
+  round.is_last = false;
   for (c->n_rounds = 1; c->n_rounds <= MAX_ROUNDS && !is_over; c->n_rounds++) {
     if (c->excess <= WALL_EXCESS * tolerance) {
       FS_TRY(fs_wall_measure(wall, &distance, &face));
@@ -215,7 +153,7 @@ static fs_status press_to_wall(course *c, const fs_stage *last, bool is_over) {
       wall->limit -= 1.1 * (distance - tolerance); /* there is more between the samples */
     }
     before = c->excess;
-    FS_TRY(run_stage(c, last, &is_over));
+    FS_TRY(run_stage(c, &round, &is_over));
     if (c->excess > 0.25 * before) wall->stiffness *= 4;
   }
   FS_TRY(fs_stay_near_retract(&c->setup, (1 - 1e-12) * tolerance, c->begin, c->x, &c->report->distance));
@@ -225,15 +163,14 @@ done:
 
 static fs_status run_stages(course *c) {
   fs_status status = FS_OK;
-  fs_stage stages[FS_MAX_STAGES];
+  stage stages[MAX_STAGES];
   double last = c->setup.param[0];
-  int32_t n = fs_stages_plan(&c->setup, c->options, c->n_coarse, stages);
+  int32_t n = plan_stages(&c->setup, stages);
   bool is_over = false;
-  c->damping = (fs_damping){.nu = fs_is_quadratic(c->setup.functional) ? 0 : 1};
+  c->damping = (fs_damping){.nu = is_quadratic(c->setup.functional) ? 0 : 1};
   for (int32_t i = 0; i < n && !is_over; i++) FS_TRY(run_stage(c, &stages[i], &is_over));
   if (c->setup.wall != NULL) FS_TRY(press_to_wall(c, &stages[n - 1], is_over));
 done:
-  if (c->depth > 0) leave_depth(c); /* stopped there */
   c->setup.param[0] = last;
   return status;
 }
@@ -264,14 +201,13 @@ static fs_status begin_triharmonic(course *c, const fs_space *space) {
                              .n_nodes_square = c->options->n_nodes_square,
                              .n_nodes_cap = c->options->n_nodes_cap,
                              .max_iterations = 4};
-  course linear = {.ctx = c->ctx, .options = &options, .report = &unused, .x = c->x, .g = c->g};
+  course linear = {.ctx = c->ctx, .options = &options, .report = &unused, .solver = c->solver, .x = c->x, .g = c->g};
   FS_TRY(
       fs_setup_create(c->ctx, space, &options, fs_functional_find("triharmonic"), c->setup.problem->c, &linear.setup));
   fs_setup_share(&linear.setup, &c->setup);
   FS_TRY(run_stages(&linear));
   fs_setup_place(&c->setup, c->x);
 done:
-  leave_depth(&linear);
   fs_setup_share(&linear.setup, NULL);
   fs_setup_free(c->ctx, &linear.setup);
   return status;
@@ -296,6 +232,7 @@ static fs_status run_course(course *c, const fs_space *space) {
   bool is_scale_free = c->setup.functional->is_scale_free;
   double size = 0, size_now = 0;
   fs_energy begin = c->report->start;
+  FS_TRY(fs_solver_create(c->ctx, fs_setup_pattern(&c->setup), &c->solver));
   if (is_scale_free) FS_TRY(fs_setup_size(&c->setup, &size)); /* of the start as it was given */
   fs_setup_place(&c->setup, c->x);
   if (constraints != NULL && constraints->tolerance != 0) FS_TRY(begin_near(c));
@@ -303,9 +240,6 @@ static fs_status run_course(course *c, const fs_space *space) {
   if (c->options->start_triharmonic || c->setup.reduction != NULL) FS_TRY(fs_setup_measure(&c->setup, c->g, &begin));
   FS_TRY(check_start(c->ctx, &c->setup, &begin));
   c->gradient_start = begin.gradient;
-  if (c->options->mesh != NULL && c->setup.reduction == NULL && c->setup.wall == NULL && p->n_free >= LEAST_FREE)
-    FS_TRY(fs_coarse_create(c->ctx, p, c->options->mesh, LEAST_COARSE, c->coarse, &c->n_coarse));
-  c->report->n_coarse = c->n_coarse;
   FS_TRY(run_stages(c));
   FS_TRY(fs_problem_set_level(p, 0));
   fs_setup_place(&c->setup, c->x);
@@ -315,7 +249,7 @@ static fs_status run_course(course *c, const fs_space *space) {
   c->report->kept = is_scale_free ? size_now / size - 1 : 0;
   FS_TRY(fs_setup_measure(&c->setup, c->g, &c->report->end));
 done:
-  leave_depth(c);
+  fs_solver_free(c->ctx, c->solver);
   return status;
 }
 
@@ -349,12 +283,6 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
   course c = {.ctx = ctx, .options = &own, .report = &r};
   clock_gettime(CLOCK_MONOTONIC, &c.start);
   FS_TRY(begin_constraints(&c, space, dofs, &own));
-  if (options->polish && !c.setup.functional->is_continued) {
-    status = fs_fail(ctx, FS_ERR_ARGUMENT, "%s has no weight that is lowered: there is nothing to polish",
-                     c.setup.functional->name);
-    goto done;
-  }
-  if (options->polish) c.setup.param[0] *= FS_POLISH_FACTOR;
   r.functional = c.setup.functional;
   r.n_free = c.setup.problem->n_free;
   r.n_free_inner = count_free_inner(c.setup.problem);
@@ -369,16 +297,15 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
   r.stop = options->max_iterations < 0 ? FS_STOP_ITERATIONS : FS_STOP_GRADIENT;
   if (r.n_unknowns > 0 && options->max_iterations >= 0) {
     FS_TRY(run_course(&c, space));
+    memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
   } else if (c.setup.reduction != NULL && options->max_iterations >= 0) {
     fs_setup_place(&c.setup, c.x);
     FS_TRY(fs_setup_measure(&c.setup, c.g, &r.end));
+    memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
   }
   r.c = fs_setup_c(&c.setup);
-  FS_TRY(fs_fair_quality(ctx, space, c.setup.problem->c, 0, 0, &r.quality));
-  memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
   if (report != NULL) *report = r;
 done:
-  for (int32_t i = 0; i < c.n_coarse; i++) fs_reduction_free(ctx, c.coarse[i]);
   fs_release(ctx, c.x);
   fs_release(ctx, c.g);
   fs_release(ctx, c.begin);

@@ -44,7 +44,7 @@ typedef struct fs_scale {
 } fs_scale;
 
 /* A function of integrals. Lines of a table. */
-enum { FS_MAX_TERMS = 8 };
+enum { FS_MAX_TERMS = 6 };
 typedef struct fs_functional {
   const char *name, *summary;
   const fs_param *params; /* ends with a NULL name; may be NULL */
@@ -76,13 +76,12 @@ FS_API const char *fs_stop_text(fs_stop stop); /* "gradient", "step", "decrease"
 
 /* One accepted step of the minimisation. */
 typedef struct fs_step {
-  int32_t number;  /* from 1; 0 is the start */
-  int32_t stage;   /* from 0: in each the functional, or its quadrature, is another one; values fall within a stage */
-  double value;    /* of the functional, after the step */
-  double gradient; /* Euclidean norm of its gradient there */
-  double damping;  /* relative to the diagonal of the Hessian; 0 for a Newton step */
-  double length;   /* Euclidean norm of the step */
-  double gain;     /* actual decrease / predicted decrease */
+  int32_t number;           /* from 1; 0 is the start */
+  double value;             /* of the functional, after the step */
+  double gradient;          /* Euclidean norm of its gradient there */
+  double damping;           /* relative to the diagonal of the Hessian; 0 for a Newton step */
+  double length;            /* Euclidean norm of the step */
+  double gain;              /* actual decrease / predicted decrease */
   int32_t n_factorisations; /* needed for this step */
   double seconds;           /* since the start */
   double c;                 /* weight of Q in the value */
@@ -94,18 +93,8 @@ typedef struct fs_energy {
   double integral[FS_MAX_TERMS], integral_caps[FS_MAX_TERMS]; /* of each term, unweighted; the part on caps */
   double weight[FS_MAX_TERMS];                                /* derivatives of the functional by the integrals */
   double S, S_caps, Q; /* curvature variation, its part on caps, tangential part; whatever the functional is */
-  double gradient; /* Euclidean norm of the gradient of F by the unknowns: the free dofs, or what constraints leave */
+  double gradient;     /* Euclidean norm of the gradient of F by the free dofs */
 } fs_energy;
-
-/* How far these numbers can be trusted, and how even the parametrisation is. */
-typedef struct fs_quality {
-  int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction of this measurement */
-  double S, S_caps;                    /* the curvature variation by them */
-  double area;
-  double
-      least_density; /* least |p_u x p_v| by its mean over the surface: near 0 where the surface folds over or pinches */
-  int32_t face;      /* where that is */
-} fs_quality;
 
 /* ---- constraints: what the surface must keep besides its fixed dofs [docs/constraints.md] ---- */
 
@@ -150,24 +139,17 @@ typedef struct fs_constraints {
 } fs_constraints;
 
 typedef struct fs_fair_options {
-  const fs_functional *functional; /* NULL: the first of the table */
-  const double *param;             /* NULL: initial values of its params */
-  const fs_mesh *mesh; /* the mesh of the space: large ones that are refinements are minimised from coarse to
-                                          fine displacements; NULL: at once */
-  const bool *fixed;   /* [n_dofs], at least the rim where there is one; NULL: nothing is fixed */
+  const fs_functional *functional;     /* NULL: the first of the table */
+  const double *param;                 /* NULL: initial values of its params */
+  const bool *fixed;                   /* [n_dofs], at least the rim where there is one; NULL: nothing is fixed */
   const fs_constraints *constraints;   /* NULL: none */
   int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction; 0: 8 on squares, 12 in caps; at most 32 */
   double max_seconds;                  /* 0: no limit */
   int32_t max_iterations;    /* 0: 100, or 400 with a tolerance; negative: none, only the energies are reported */
   double gradient_tolerance; /* relative to the start; 0: 1e-8 */
-  double decrease_tolerance; /* above 0: stop where a step promises less than this part of the functional; then the
-                                gradient is not asked for */
-  bool polish;               /* lower a continued parameter to a hundredth of its value, as long as a step brings 1e-4:
-                                fairer by a little, squares less even, and the minimum need not be unique */
   bool start_triharmonic;    /* begin at the minimum of the triharmonic functional (a linear problem) */
   bool (*monitor)(void *user, const fs_step *step); /* called after every accepted step; false cancels */
-  bool (*iterate)(void *user, const fs_step *step, const fs_vec3 *c); /* likewise, with the dofs, lent for the call */
-  void *monitor_user;                                                 /* for both */
+  void *monitor_user;
 } fs_fair_options;
 
 enum { FS_MAX_TRACE = 256 };
@@ -177,14 +159,11 @@ typedef struct fs_fair_report {
   int32_t n_free, n_squares, n_caps; /* free dofs (a dof is a point), elements, special vertices */
   int32_t n_free_inner;              /* those of n_free that are inner coefficients of caps */
   int32_t n_unknowns;                /* points that remain to be chosen when constraints are met; n_free without any */
-  int32_t n_coarse;                  /* meshes of which this one is a refinement, whose displacements came first */
   int32_t n_steps, n_hessians, n_factorisations;
-  int32_t n_saddles; /* stationary points that were no minima, and were left */
-  double distance;   /* with a tolerance: the largest distance from the target that was measured at the end */
+  double distance; /* with a tolerance: the largest distance from the target that was measured at the end */
   double kept; /* where nothing is fixed: the area or the volume at the end, divided by that at the start, minus 1 */
   double c;    /* weight of Q in F; 0 where the functional has no such term */
   fs_energy start, end;
-  fs_quality quality; /* of the result, by 12 nodes on squares and 24 in caps */
   int32_t n_trace;
   fs_step trace[FS_MAX_TRACE]; /* the start and the first accepted steps */
 } fs_fair_report;
@@ -192,9 +171,6 @@ typedef struct fs_fair_report {
 /* Moves the free dofs of c[n_dofs] (in: a start, for example space->start; out: the result) to a minimum of the
    functional: Levenberg-Marquardt with gain ratio, Newton steps at the end, exact Hessians [Kiciak 2013; docs/].
    Cancelling by monitor or by ctx->progress keeps the best iterate: FS_OK and stop = FS_STOP_CANCELLED.
-   Constraints are met by the result however it ends; where the start does not meet them it is moved first. One that contradicts
-   others is FS_ERR_ARGUMENT with its name; one that follows from others is left out, with a note. A tolerance that the start
-   exceeds, and constraints that leave the size free, are FS_ERR_UNSUPPORTED.
    No free dof: FS_OK, nothing moves. A functional of order above continuity + 1 is FS_ERR_UNSUPPORTED.
    A surface that is not regular at a quadrature node at the start (p_u x p_v = 0) is FS_ERR_NUMERIC, with the face. */
 FS_API fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options *options, fs_vec3 *c,
@@ -203,10 +179,6 @@ FS_API fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_o
 /* The energies of the surface with dofs c; F and gradient by options as fs_fair has them. */
 FS_API fs_status fs_fair_energy(fs_context *ctx, const fs_space *space, const fs_fair_options *options,
                                 const fs_vec3 *c, fs_energy *energy);
-
-/* Measures the surface with dofs c by a quadrature of its own; 0 nodes: 12 on squares, 24 in caps; at most 32. */
-FS_API fs_status fs_fair_quality(fs_context *ctx, const fs_space *space, const fs_vec3 *c, int32_t n_nodes_square,
-                                 int32_t n_nodes_cap, fs_quality *quality);
 
 /* Name of the BLAS library that the solver runs on, for example a path; and whether it is the slow reference one. */
 FS_API const char *fs_blas_name(bool *is_reference);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: the files of a folder of seeds, one after the other. */
 #include "seeds.h"
-#include "read_one.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -11,7 +10,7 @@
 static bool has_reader(const char *extension) {
   for (const fs_reader *const *reader = fs_readers; *reader != NULL; reader++)
     if (strcmp((*reader)->extension, extension) == 0) return true;
-  return strcmp(extension, CAPS_FILE) == 0;
+  return false;
 }
 
 int32_t for_each_seed(const char *folder, void *user,
