@@ -116,6 +116,7 @@ static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
                            .monitor = record,
                            .user = c};
   if (stage->is_last) {
+    o.is_newton = true;
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
     o.gradient_start = c->gradient_start;
   }

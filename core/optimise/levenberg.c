@@ -12,7 +12,8 @@
    and being the same for x, y, z, free of rotations. Differs from Nielsen's update, which needs more Hessians.
 
    For the same reason every factorisation is used again for as long as it pays: steps s = -B g, where B is its inverse
-   corrected by the pairs of steps and gradient changes since (memory.c). One costs a gradient and a solution. */
+   corrected by the pairs of steps and gradient changes since (memory.c). One costs a gradient and a solution. A caller who wants
+   the quadratic convergence of Newton's method at the end asks for a Hessian per step. */
 #include "optimise/minimise.h"
 #include "optimise/memory.h"
 
@@ -323,7 +324,7 @@ fs_status fs_minimise(fs_context *ctx, const fs_objective *o, const fs_minimise_
       r.stop = FS_MINIMISE_GRADIENT;
       break;
     }
-    if (t.is_factored)
+    if (t.is_factored && !options->is_newton)
       FS_TRY(quasi_newton_step(ctx, o, &t, &r, &is_taken, &is_stuck));
     else
       FS_TRY(newton_step(ctx, o, &t, &r, &is_taken, &is_stuck));

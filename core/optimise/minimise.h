@@ -44,6 +44,7 @@ typedef struct fs_minimise_options {
   double gradient_start;     /* 0: the gradient at x */
   double decrease_tolerance; /* predicted decrease relative to |f| */
   fs_damping *damping;       /* in and out */
+  bool is_newton;            /* every step has a Hessian of its own: quadratic convergence near the minimum */
   double least_damping;      /* above 0 where the minimum is not isolated: rigid motions */
   bool (*monitor)(void *user, const fs_minimise_step *step); /* after every accepted step; false cancels; may be NULL */
   void *user;

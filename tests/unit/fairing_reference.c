@@ -76,16 +76,14 @@ static void test_start(void **state) {
 
 static void check_minimum(const char *name, bool with_marks, int32_t n_free, double F) {
   fs_fair_report r = run(name, with_marks, 8, 0);
-  double F_end = r.end.F;
   assert_int_equal(r.n_free, n_free);
   assert_true(fabs(r.end.F - F) <= 1e-7 * F);
   assert_true(r.end.gradient <= 1e-8 * r.start.gradient);
-  assert_true(r.n_hessians <= 10);
-  assert_true(r.n_factorisations <= r.n_hessians + 5);
-  /* a factorisation serves several steps, each of which takes most of what is left */
-  assert_true(r.n_factorisations < r.n_steps && r.n_trace >= 5);
-  for (int32_t i = r.n_trace - 3; i < r.n_trace; i++)
-    assert_true(r.trace[i].value - F_end < 0.2 * (r.trace[i - 1].value - F_end) + 1e-13 * F);
+  assert_true(r.n_hessians <= 25);
+  /* quadratic fall: the last gradients go down faster and faster */
+  assert_true(r.n_trace >= 4);
+  double a = r.trace[r.n_trace - 3].gradient, b = r.trace[r.n_trace - 2].gradient, c = r.trace[r.n_trace - 1].gradient;
+  assert_true(c / b < 0.1 * (b / a) || c <= 1e-10 * r.start.gradient);
 }
 
 static void test_minimum(void **state) {
