@@ -4,6 +4,7 @@
    Vertices are the classes of corners, and of points within sides, that edges join at their ends: union-find over nodes. Node
    4 patch + corner is a corner; points within sides follow. */
 #include "analyse/analyse.h"
+#include "math/union_find.h"
 #include "math/vec3.h"
 
 #include <stdlib.h>
@@ -36,19 +37,6 @@ static int32_t node_at(const nodes *n, int32_t patch, int32_t side, double t) {
   if (t >= 1) return 4 * patch + (side + 1) % n_sides;
   found = bsearch(&key, n->inner, (size_t)n->n_inner, sizeof key, compare_inner);
   return 4 * n->surface->n_patches + (int32_t)(found - n->inner);
-}
-
-static int32_t find(int32_t *parent, int32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-static void unite(int32_t *parent, int32_t i, int32_t j) {
-  i = find(parent, i), j = find(parent, j);
-  if (i < j)
-    parent[j] = i;
-  else
-    parent[i] = j;
 }
 
 /* Sides of patches, by what the patches say of them. */
@@ -116,7 +104,7 @@ static fs_status list_vertices(fs_context *ctx, const nodes *n, fs_edges *e) {
   FS_ALLOC(ctx, number, n_nodes);
   for (int32_t i = 0; i < n_nodes; i++) {
     bool is_there = i >= 4 * surface->n_patches || i % 4 < surface->patch[i / 4].n_sides;
-    int32_t root = find(n->parent, i);
+    int32_t root = fs_union_find(n->parent, i);
     number[i] = !is_there ? FS_NONE : root == i ? e->n_vertices++ : number[root];
   }
   FS_ALLOC(ctx, e->place_start, (size_t)e->n_vertices + 2);
@@ -148,10 +136,10 @@ static fs_status make_vertices(fs_context *ctx, const fs_surface *surface, fs_ed
   for (int32_t i = 0; i < 4 * surface->n_patches + n.n_inner; i++) n.parent[i] = i;
   for (int32_t i = 0; i < e->n_edges; i++) {
     const fs_edge *edge = &e->edge[i];
-    unite(n.parent, node_at(&n, edge->patch[0], edge->side[0], edge->begin[0]),
-          node_at(&n, edge->patch[1], edge->side[1], edge->begin[1]));
-    unite(n.parent, node_at(&n, edge->patch[0], edge->side[0], edge->end[0]),
-          node_at(&n, edge->patch[1], edge->side[1], edge->end[1]));
+    fs_union_join(n.parent, node_at(&n, edge->patch[0], edge->side[0], edge->begin[0]),
+                  node_at(&n, edge->patch[1], edge->side[1], edge->begin[1]));
+    fs_union_join(n.parent, node_at(&n, edge->patch[0], edge->side[0], edge->end[0]),
+                  node_at(&n, edge->patch[1], edge->side[1], edge->end[1]));
   }
   FS_TRY(list_vertices(ctx, &n, e));
 done:

@@ -6,6 +6,7 @@
    between are an edge. Ends are sorted along a direction that no grid is likely to be aligned with; neighbours within the
    tolerance are near in that order. */
 #include "analyse/analyse.h"
+#include "math/union_find.h"
 #include "math/vec3.h"
 
 #include <stdlib.h>
@@ -147,11 +148,6 @@ done:
 
 /* ---- clusters of ends ---- */
 
-static int32_t find(int32_t *parent, int32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 static fs_status cluster_ends(fs_context *ctx, int32_t n, piece *p) {
   tip *tips = NULL;
   int32_t *parent = NULL;
@@ -165,10 +161,9 @@ static fs_status cluster_ends(fs_context *ctx, int32_t n, piece *p) {
     for (int32_t j = i + 1; j < 2 * n && tips[j].key <= tips[i].key + widest; j++) {
       double least = fmin(p[tips[i].piece].tolerance, p[tips[j].piece].tolerance);
       if (fs_vec3_distance(tips[i].point, tips[j].point) > least) continue;
-      int32_t a = find(parent, 2 * tips[i].piece + tips[i].end), b = find(parent, 2 * tips[j].piece + tips[j].end);
-      parent[a > b ? a : b] = a > b ? b : a;
+      fs_union_join(parent, 2 * tips[i].piece + tips[i].end, 2 * tips[j].piece + tips[j].end);
     }
-  for (int32_t i = 0; i < 2 * n; i++) p[i / 2].cluster[i % 2] = find(parent, i);
+  for (int32_t i = 0; i < 2 * n; i++) p[i / 2].cluster[i % 2] = fs_union_find(parent, i);
 done:
   fs_release(ctx, tips);
   fs_release(ctx, parent);

@@ -1,20 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which corners of patches are one point: union-find over the corners 4 patch + corner, joined across shared sides. */
 #include "surface/surface.h"
-
-static int32_t find(int32_t *parent, int32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-/* The lower number becomes the root, so that a root comes before its followers. */
-static void unite(int32_t *parent, int32_t i, int32_t j) {
-  i = find(parent, i), j = find(parent, j);
-  if (i < j)
-    parent[j] = i;
-  else
-    parent[i] = j;
-}
+#include "math/union_find.h"
 
 fs_status fs_surface_corners(fs_context *ctx, const fs_surface *surface, int32_t *corner, int32_t *n_corners) {
   fs_status status = FS_OK;
@@ -27,13 +14,13 @@ fs_status fs_surface_corners(fs_context *ctx, const fs_surface *surface, int32_t
       if (other == FS_NONE) continue;
       /* our corner s is where the side that meets ours ends, our corner s + 1 where it starts */
       int32_t q = other / 4, r = other % 4;
-      unite(parent, 4 * p + s, 4 * q + (r + 1) % surface->patch[q].n_sides);
-      unite(parent, 4 * p + (s + 1) % surface->patch[p].n_sides, 4 * q + r);
+      fs_union_join(parent, 4 * p + s, 4 * q + (r + 1) % surface->patch[q].n_sides);
+      fs_union_join(parent, 4 * p + (s + 1) % surface->patch[p].n_sides, 4 * q + r);
     }
   for (int32_t i = 0; i < 4 * surface->n_patches; i++) {
     corner[i] = FS_NONE;
     if (i % 4 >= surface->patch[i / 4].n_sides) continue;
-    int32_t root = find(parent, i);
+    int32_t root = fs_union_find(parent, i);
     corner[i] = root == i ? n++ : corner[root];
   }
   *n_corners = n;
