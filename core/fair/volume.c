@@ -34,7 +34,8 @@ static fs_status table_create(fs_context *ctx, const fs_extraction *x, table *t)
   int32_t degree = x->degree_u > x->degree_v ? x->degree_u : x->degree_v, n = 3 * degree / 2 + 1;
   double node[MAX_NODES], weight[MAX_NODES];
   if (n > MAX_NODES)
-    return fs_fail(ctx, FS_ERR_UNSUPPORTED, "the volume of elements of degree %d is not implemented", degree);
+    return fs_fail(ctx, FS_ERR_UNSUPPORTED, "the volume is kept for elements up to degree %d, and one has degree %d",
+                   2 * (MAX_NODES - 1) / 3, degree);
   FS_TRY(fs_gauss_legendre(ctx, n, node, weight));
   t->n = n * n;
   t->n_dofs = x->n_dofs;
