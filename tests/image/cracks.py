@@ -4,8 +4,9 @@
 
 The file is a mesh, or what the command reads; the command, with its options, is export unless given.
 Six views, side by side in one picture, without antialiasing: three from around, three that belong to the first special
-vertex of the mesh: along its normal, and low along two of its spokes (three fixed ones where the file is no OBJ). The bicubic form is compared with triangles from
-32 x 32 cells per patch; what counts as a crack is said in crack.c. The inside of the surface has a colour of its own, so
+vertex of the mesh: along its normal, and low along two of its spokes (three fixed ones where the file is no OBJ). The
+bicubic form is compared with triangles from
+64 x 64 cells per patch; what counts as a crack is said in crack.c. The inside of the surface has a colour of its own, so
 that a crack shows even where there is more surface behind it.
 With --red one shared edge of a patch is moved by 1e-3 of the size, and a crack must be found.
 """
@@ -155,7 +156,7 @@ def main():
     parser.add_argument("--fairsurf", type=pathlib.Path, required=True)
     parser.add_argument("--crack", type=pathlib.Path, required=True)
     parser.add_argument("--out", type=pathlib.Path, required=True)
-    parser.add_argument("--steps", type=int, default=5, help="the fine form has 2^steps x 2^steps cells per patch")
+    parser.add_argument("--steps", type=int, default=6, help="the fine form has 2^steps x 2^steps cells per patch")
     parser.add_argument("--red", action="store_true")
     parser.add_argument("mesh", type=pathlib.Path)
     parser.add_argument("command", nargs=argparse.REMAINDER)
