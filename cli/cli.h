@@ -54,6 +54,9 @@ typedef struct arguments {
 /* Fills the arguments or leaves the program: 0 after --help and --version, 2 with a sentence where they are wrong. */
 void parse_arguments(int argc, char **argv, arguments *arguments);
 
+void print_version(void); /* with the BLAS in use */
+void print_list(void);    /* of the tables of the library */
+
 /* Exit code of a status. */
 int exit_code(fs_status status);
 
