@@ -11,6 +11,10 @@
 static void replay(void *user, const char *name, const char *extension, const char *bytes, size_t size) {
   bool is_good = strncmp(name, "good_", 5) == 0;
   int32_t *n_wrong = user;
+  if (strcmp(extension, CAPS_FILE) == 0 && (read_one(CAPS_FILE, bytes, size) == FS_OK) != is_good) {
+    fprintf(stderr, "%s is not as expected\n", name);
+    (*n_wrong)++;
+  }
   for (const fs_reader *const *reader = fs_readers; *reader != NULL; reader++) {
     fs_status status = read_one((*reader)->extension, bytes, size);
     if (strcmp((*reader)->extension, extension) != 0 || (status == FS_OK) == is_good) continue;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: the files of a folder of seeds, one after the other. */
 #include "seeds.h"
+#include "read_one.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -10,7 +11,7 @@
 static bool has_reader(const char *extension) {
   for (const fs_reader *const *reader = fs_readers; *reader != NULL; reader++)
     if (strcmp((*reader)->extension, extension) == 0) return true;
-  return false;
+  return strcmp(extension, CAPS_FILE) == 0;
 }
 
 int32_t for_each_seed(const char *folder, void *user,
