@@ -144,11 +144,19 @@ static void put_comparison(FILE *f, const arguments *a, const check_result *r) {
   put(f, "largest_distance", r->distance, "},\n");
 }
 
+/* Edges between patches that look opposite ways. */
+static int32_t count_flipped(const fs_edges *e) {
+  int32_t n = 0;
+  for (int32_t i = 0; i < e->n_edges; i++) n += e->edge[i].is_flipped;
+  return n;
+}
+
 void print_check_json(FILE *f, const arguments *a, const check_result *r) {
   fprintf(f, "{\n  \"version\": \"%s\",\n  \"surface\": ", fs_version());
   put_string(f, a->mesh);
   fprintf(f, ",\n  \"patches\": %d,\n  \"edges\": %d,\n  \"edges_found_by_geometry\": %d,\n", r->surface->n_patches,
           r->edges->n_edges, r->edges->n_found);
+  fprintf(f, "  \"edges_between_opposite_outsides\": %d,\n", count_flipped(r->edges));
   fprintf(f, "  \"borders\": %d,\n  \"vertices\": %d,\n  \"irregular\": %d,\n  ", r->edges->n_borders,
           r->edges->n_vertices, r->continuity->n_irregular);
   put_jumps(f, "max", r->continuity->max);

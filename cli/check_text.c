@@ -107,6 +107,9 @@ static void print_comparison(FILE *f, const arguments *a, const check_result *r)
 void print_check(FILE *f, const arguments *a, const check_result *r) {
   fprintf(f, "%s: %d patches, %d edges (%d found by geometry), %d of the border, %d vertices\n", a->mesh,
           r->surface->n_patches, r->edges->n_edges, r->edges->n_found, r->edges->n_borders, r->edges->n_vertices);
+  int32_t n_flipped = 0;
+  for (int32_t i = 0; i < r->edges->n_edges; i++) n_flipped += r->edges->edge[i].is_flipped;
+  if (n_flipped > 0) fprintf(f, "%d edges are between patches with opposite outsides\n", n_flipped);
   if (r->continuity->n_irregular > 0)
     fprintf(f, "%d edges and vertices have points without a normal\n", r->continuity->n_irregular);
   print_jumps(f, r);

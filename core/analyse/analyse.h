@@ -100,7 +100,7 @@ void fs_distribution_percentiles(size_t n, fs_sample *sample, fs_distribution *H
 /* Largest distance of two points (diameter.c). */
 fs_status fs_surface_diameter(fs_context *ctx, const fs_surface *surface, double *diameter, fs_place end[2]);
 
-/* Whether two triangles cut each other in more than touching, and a point of both (triangle_pair.c). */
+/* Whether two triangles cut each other, or seem to because they touch, and a point of both (triangle_pair.c). */
 bool fs_triangles_cut(const fs_vec3 s[3], const fs_vec3 t[3], fs_vec3 *point);
 
 #endif

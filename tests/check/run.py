@@ -167,6 +167,17 @@ def test_command(arguments):
     text = run(arguments, "check", torus, "--require", "g2").stdout
     need("G2 is required: passed" in text and "tool radius" in text, text)
 
+    # two tori through each other
+    lines = torus.read_text(encoding="ascii").splitlines()
+    points = [[float(x) for x in line.split()[1:]] for line in lines if line.startswith("v ")]
+    faces = [[int(corner.split("/")[0]) for corner in line.split()[1:]] for line in lines if line.startswith("f ")]
+    both = arguments.out / "both.obj"
+    both.write_text("".join(f"v {x + shift} {y} {z}\n" for shift in (0, 1) for x, y, z in points) +
+                    "".join("f " + " ".join(str(corner + base) for corner in face) + "\n"
+                            for base in (0, len(points)) for face in faces), encoding="ascii")
+    found = check(arguments, both, "--require", "g2")["self_intersections"]
+    need(found["pairs"] > 0 and len(found["places"]) == min(found["pairs"], 10), f"{found['pairs']} crossings")
+
     # compared with itself nothing changes; a faired surface has less S, and has moved
     found = check(arguments, star, "--compare", star)["compared"]
     need(found["S"] == 1 and found["largest_distance"] == 0, "a surface differs from itself")

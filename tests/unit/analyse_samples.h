@@ -101,6 +101,23 @@ static inline int sample_add_graph(fs_surface *s, int n, int m, const double *c,
   return p;
 }
 
+/* Adds the Bezier triangle of degree 2 with these points: rows of 3, 2, 1. */
+static inline int sample_add_triangle(fs_surface *s, const double points[18]) {
+  int p = s->n_patches++;
+  s->patch = realloc(s->patch, (size_t)s->n_patches * sizeof *s->patch);
+  s->data = realloc(s->data, (s->n_data + 18) * sizeof *s->data);
+  s->patch[p] = (fs_patch){.kind = FS_PATCH_BEZIER_TRIANGLE,
+                           .n_sides = 3,
+                           .degree_u = 2,
+                           .degree_v = 2,
+                           .data_start = s->n_data,
+                           .face = FS_NONE,
+                           .valence = 4,
+                           .neighbour = {FS_NONE, FS_NONE, FS_NONE, FS_NONE}};
+  for (int k = 0; k < 18; k++) s->data[s->n_data++] = points[k];
+  return p;
+}
+
 /* Turns patch p so that its outside is inside: u and v are exchanged. */
 static inline void sample_flip(fs_surface *s, int p) {
   fs_patch *patch = &s->patch[p];

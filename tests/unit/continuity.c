@@ -283,6 +283,39 @@ static void test_tori(void **state) {
   release(s, e, c);
 }
 
+/* A square cut along x + y = 1: z = (x - 0.4)^2 below, and a (x + y - 1)^2 more above. The second derivatives differ by
+   2 a m m^T, m = (1, 1), so that the tensors differ by 2 a / w m^T G^-1 m, w^2 = 1 + z_x^2 and G = I + grad z grad z^T:
+   4 a where z_x = 0, and less elsewhere. Bezier ordinates are blossoms: of x^2 at (p, q) x_p x_q. */
+static void test_triangles(void **state) {
+  static const double corner[2][3][2] = {{{0, 0}, {1, 0}, {0, 1}}, {{1, 1}, {0, 1}, {1, 0}}};
+  const double a = 0.3;
+  fs_edges *e;
+  fs_surface *s = sample_empty();
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    double points[18], *to = points;
+    for (int row = 0; row < 3; row++)
+      for (int i = 0; i < 3 - row; i++) {
+        const double *p = corner[k][row == 2 || (row == 1 && i == 0) ? (row == 2 ? 2 : 0) : i == 0 ? 0 : 1];
+        const double *q = corner[k][row > 0 ? 2 : i == 2 ? 1 : 0];
+        double s_p = p[0] + p[1] - 1, s_q = q[0] + q[1] - 1;
+        *to++ = 0.5 * (p[0] + q[0]);
+        *to++ = 0.5 * (p[1] + q[1]);
+        *to++ = (p[0] - 0.4) * (q[0] - 0.4) + (k == 1 ? a * s_p * s_q : 0);
+      }
+    sample_add_triangle(s, points);
+  }
+  fs_continuity *c = measure(s, 1, &e);
+  assert_int_equal(e->n_edges, 1);
+  assert_int_equal(e->n_borders, 4);
+  assert_int_equal(e->n_vertices, 4);
+  near(c->max[FS_JUMP_POSITION], 0, 1e-15);
+  near(c->max[FS_JUMP_NORMAL], 0, 1e-14);
+  near(c->max[FS_JUMP_CURVATURE], 4 * a, 1e-9);
+  near(c->worst[FS_JUMP_CURVATURE][0].point.x, 0.4, 1e-4);
+  release(s, e, c);
+}
+
 static void test_irregular_and_infinite(void **state) {
   struct test_memory memory = {0};
   fs_context ctx = test_memory_context(&memory);
@@ -358,6 +391,7 @@ int main(void) {
       cmocka_unit_test(test_seams),
       cmocka_unit_test(test_geometry_finds_all),
       cmocka_unit_test(test_tori),
+      cmocka_unit_test(test_triangles),
       cmocka_unit_test(test_irregular_and_infinite),
       cmocka_unit_test(test_memory),
       cmocka_unit_test(test_threads),

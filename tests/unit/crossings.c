@@ -80,6 +80,24 @@ static void test_plane_through_bowl(void **state) {
   sample_grown_free(s);
 }
 
+/* z = 2 x + 2 y - 1 over the triangle (0, 0), (1, 0), (0, 1), as a Bezier triangle, meets z = 0 on x + y = 0.5. */
+static void test_triangle(void **state) {
+  static const double tilted[18] = {0, 0, -1, 0.5, 0, 0, 1, 0, 1, 0, 0.5, 0, 0.5, 0.5, 1, 0, 1, 1};
+  double plane[16] = {0};
+  fs_context ctx = test_context();
+  fs_surface *s = sample_empty();
+  (void)state;
+  sample_add_triangle(s, tilted);
+  sample_add_graph(s, 3, 3, plane, -1.1, 3, -1.3, 3);
+  fs_crossings *c = find(s, 0);
+  assert_int_equal(c->n, 1);
+  near(c->crossing[0].point.x + c->crossing[0].point.y, 0.5, 1e-9);
+  assert_int_equal(c->crossing[0].place[0].patch, 0);
+  near(c->crossing[0].place[0].u + c->crossing[0].place[0].v, 0.5, 1e-9);
+  fs_crossings_free(&ctx, c);
+  sample_grown_free(s);
+}
+
 /* Chords of a coarse bowl cut a plane that the bowl itself passes below: no crossing. */
 static void test_coarse_triangles(void **state) {
   double bowl[16] = {[2] = 1, [8] = 1}, above[16] = {[0] = -0.01, [2] = 1, [8] = 1};
@@ -175,6 +193,7 @@ int main(void) {
       cmocka_unit_test(test_neighbours),
       cmocka_unit_test(test_two_tori),
       cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_triangle),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
