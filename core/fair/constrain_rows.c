@@ -100,9 +100,22 @@ static fs_status check_hold(fs_context *ctx, const fs_space *space, const fs_hol
   return FS_OK;
 }
 
-static fs_status add_hold(rows *r, const fs_space *space, const fs_hold *h) {
+/* A point on the plane of symmetry stays on it, and its normal lies in it: numbers that say so to 1e-6 become exact. */
+static void snap_to_plane(const rows *r, const fs_symmetry *s, int32_t n, const int32_t *dof, const double *weight,
+                          fs_hold *h) {
+  double tolerance = 1e-6 * r->base->size, along = fs_vec3_dot(s->normal, h->normal);
+  fs_vec3 at = {0, 0, 0};
+  for (int32_t k = 0; k < n; k++) at = fs_vec3_add_scaled(at, r->base->c[dof[k]], weight[k]);
+  if (fabs(fs_vec3_dot(s->normal, at) - s->offset) > tolerance) return;
+  if (fabs(along) <= 1e-6 * fs_vec3_length(h->normal)) h->normal = fs_vec3_add_scaled(h->normal, s->normal, -along);
+  along = fs_vec3_dot(s->normal, h->position) - s->offset;
+  if (fabs(along) <= tolerance) h->position = fs_vec3_add_scaled(h->position, s->normal, -along);
+}
+
+static fs_status add_hold(rows *r, const fs_space *space, const fs_symmetry *symmetry, const fs_hold *given) {
   fs_status status = FS_OK;
   double weight[MAX_DOFS];
+  fs_hold own = *given, *h = &own;
   FS_TRY(check_hold(r->ctx, space, h, r->name));
   const fs_element *e = &space->element[h->element];
   const fs_extraction *x = &space->extraction[e->extraction];
@@ -110,8 +123,9 @@ static fs_status add_hold(rows *r, const fs_space *space, const fs_hold *h) {
   if (x->n_dofs > MAX_DOFS || x->degree_u > MAX_DEGREE || x->degree_v > MAX_DEGREE)
     return fs_fail(r->ctx, FS_ERR_UNSUPPORTED, "%s is on element %d, which has %d dofs", r->name, h->element,
                    x->n_dofs);
+  fs_constrain_weights(x, h->u, h->v, 0, 0, weight);
+  if (symmetry != NULL) snap_to_plane(r, symmetry, x->n_dofs, dof, weight, h);
   if (h->has_position) {
-    fs_constrain_weights(x, h->u, h->v, 0, 0, weight);
     FS_TRY(add_point(r, x->n_dofs, dof, weight, h->position));
   }
   for (int axis = 0; axis < 2 && h->has_normal; axis++) {
@@ -145,7 +159,7 @@ fs_status fs_constrain_solve(fs_context *ctx, const fs_space *space, const fs_co
   rows r = {.ctx = ctx, .base = base, .elimination = elimination};
   for (int32_t i = 0; i < constraints->n_holds; i++) {
     begin(&r, "hold", constraints->hold[i].name, i);
-    FS_TRY(add_hold(&r, space, &constraints->hold[i]));
+    FS_TRY(add_hold(&r, space, constraints->symmetry, &constraints->hold[i]));
     end(&r);
   }
   for (int32_t i = 0; i < constraints->n_equations; i++) {

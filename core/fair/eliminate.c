@@ -148,8 +148,9 @@ fs_status fs_elimination_finish(fs_context *ctx, fs_elimination *e, double right
     if (e->solved[e->touched[i]] == NULL && size > (1 + 1e-9) * pivot) pivot = size, number = e->touched[i];
   }
   *residual = fabs(right);
-  if (pivot <= 1e-10 * largest) {
-    *result = *residual <= 1e-10 * scale ? FS_EQUATION_REDUNDANT : FS_EQUATION_CONTRADICTS;
+  if (pivot <= 1e-8 * largest) { /* what is left is the rounding of the numbers that were given */
+    double noise = largest > 0 ? pivot / largest : 0;
+    *result = *residual <= fmax(1e-10, 10 * noise) * scale ? FS_EQUATION_REDUNDANT : FS_EQUATION_CONTRADICTS;
     goto done;
   }
   *result = FS_EQUATION_NEW;

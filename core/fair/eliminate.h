@@ -35,8 +35,8 @@ typedef enum fs_elimination_result {
 } fs_elimination_result;
 
 /* Ends the collected equation with its right side and solves it for the number of the largest coefficient that is left
-   after the equations before. Where none is left it follows from them, or contradicts them by *residual, when that is more
-   than 1e-10 scale. */
+   after the equations before. Where none above 1e-8 of the first is left it follows from them, or contradicts them by
+   *residual, when that is more than 1e-10 scale. */
 fs_status fs_elimination_finish(fs_context *ctx, fs_elimination *elimination, double right, double scale,
                                 fs_elimination_result *result, double *residual);
 

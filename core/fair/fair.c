@@ -115,7 +115,9 @@ static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
                            .least_damping = c->setup.functional->is_scale_free || c->setup.wall != NULL ? 1e-10 : 0,
                            .monitor = record,
                            .user = c};
-  if (stage->is_last) {
+  if (c->setup.wall != NULL) { /* the forces of the wall change after each stage */
+    o.decrease_tolerance = fmax(o.decrease_tolerance, 1e-7);
+  } else if (stage->is_last) {
     o.is_newton = true;
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
     o.gradient_start = c->gradient_start;
@@ -143,10 +145,7 @@ static fs_status press_to_wall(course *c, const stage *last, bool is_over) {
   fs_status status = FS_OK;
   fs_wall *wall = c->setup.wall;
   double tolerance = c->options->constraints->tolerance, distance, before;
-  stage round = *last;
   int32_t face;
-  round.tolerance = 1e-7;
-  round.is_last = false;
   for (c->n_rounds = 1; c->n_rounds <= MAX_ROUNDS && !is_over; c->n_rounds++) {
     if (c->excess <= WALL_EXCESS * tolerance) {
       FS_TRY(fs_wall_measure(wall, &distance, &face));
@@ -154,7 +153,7 @@ static fs_status press_to_wall(course *c, const stage *last, bool is_over) {
       wall->limit -= 1.1 * (distance - tolerance); /* there is more between the samples */
     }
     before = c->excess;
-    FS_TRY(run_stage(c, &round, &is_over));
+    FS_TRY(run_stage(c, last, &is_over));
     if (c->excess > 0.25 * before) wall->stiffness *= 4;
   }
   FS_TRY(fs_stay_near_retract(&c->setup, (1 - 1e-12) * tolerance, c->begin, c->x, &c->report->distance));

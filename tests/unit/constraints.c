@@ -300,6 +300,34 @@ static void test_symmetry_and_holds(void **state) {
   tear_down(&f);
 }
 
+/* A tangent plane on the plane of symmetry, its numbers rounded: what is left of them must not become an equation. */
+static void test_symmetry_and_rounded_normal(void **state) {
+  (void)state;
+  const fs_vec3 y = {0, 1, 0};
+  for (int caps = FS_CAPS_LINEAR; caps <= FS_CAPS_FULL; caps += 2) {
+    fixture f;
+    fs_symmetry *s = NULL;
+    fs_hold hold = {.u = 1e-10, .v = 0, .has_position = true, .has_normal = true, .normal = {0.1, 3e-8, 1}};
+    fs_mesh *mesh = test_star(5, 5);
+    for (int32_t v = 0; v < mesh->n_vertices; v++) mesh->position[v].z = 0.05 * pow(mesh->position[v].x, 2);
+    set_up(&f, mesh, (fs_cap_inner)caps);
+    while (f.space->extraction[f.space->element[hold.element].extraction].valence == 4) hold.element++;
+    hold.position = start_point(&f, hold.element, 0, 0);
+    hold.position.y = 1e-9;
+    hold.position.z += 0.1;
+    assert_int_equal(fs_symmetry_create(&f.ctx, mesh, f.space, &y, 0, &s), FS_OK);
+    f.constraints = (fs_constraints){.n_holds = 1, .hold = &hold, .symmetry = s};
+    assert_int_equal(fair(&f), FS_OK);
+    assert_true(f.report.end.S < 10);
+    assert_int_equal(f.report.stop, FS_STOP_GRADIENT);
+    hold.position.y = hold.normal.y = 0;
+    check_holds(&f, 1e-8);
+    check_symmetric(&f, s, true);
+    fs_symmetry_free(&f.ctx, s);
+    tear_down(&f);
+  }
+}
+
 /* ---- refusals ---- */
 
 static void refuse(fixture *f, fs_status expected, const char *part) {
@@ -436,6 +464,7 @@ int main(void) {
                                      cmocka_unit_test(test_symmetry),
                                      cmocka_unit_test(test_symmetry_closed),
                                      cmocka_unit_test(test_symmetry_and_holds),
+                                     cmocka_unit_test(test_symmetry_and_rounded_normal),
                                      cmocka_unit_test(test_refusals),
                                      cmocka_unit_test(test_size_is_free),
                                      cmocka_unit_test(test_threads_and_cancel),
