@@ -243,6 +243,9 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
       return 0;
     }
   switch (key) {
+  case ARGP_KEY_INIT:
+    state->child_inputs[0] = &a->constraints;
+    break;
   case 'o':
     add_event(state, p, (event){.name = -1, .text = text, .is_surface = p->is_surface, .colour = p->colour});
     break;
@@ -372,7 +375,7 @@ static const struct argp_option fixed_options[] = {
     {"fixed", KEY_FIXED, "FILE", 0, "vertices that stay besides the rim: numbers from 0, one per line", 0},
     {"start", KEY_START, "WHAT", 0, "mesh: the given positions; triharmonic: the minimum of a linear problem", 0},
     {"nodes", KEY_NODES, "N", 0, "Gauss nodes per direction, everywhere (default: 8 on squares, 12 in caps)", 0},
-    {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100); 0 only measures", 0},
+    {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100, or 400 with --stay-within); 0 only measures", 0},
     {"threads", KEY_THREADS, "N", 0, "threads (1)", 0},
     {"blas-threads", KEY_BLAS_THREADS, "N", 0, "threads of the linear algebra (1)", 0},
     {NULL, 0, NULL, 0, "Patches:", 4},
@@ -412,7 +415,7 @@ void parse_arguments(int argc, char **argv, arguments *a) {
   *a = (arguments){.functional = fs_functionals[0],
                    .construction = fs_constructions[0],
                    .refiner = "averaging",
-                   .max_iterations = 100,
+                   .max_iterations = -1,
                    .threads = 1,
                    .blas_threads = 1,
                    .require = -1,
@@ -426,7 +429,9 @@ void parse_arguments(int argc, char **argv, arguments *a) {
     options[n++] =
         (struct argp_option){.name = p.name[i].param->name, .key = key_of(&p, i), .arg = "VALUE", .doc = p.name[i].doc};
   }
-  const struct argp argp = {.options = options, .parser = parse_option, .args_doc = "COMMAND MESH", .doc = doc};
+  const struct argp_child children[] = {{&constraint_argp, 0, "Constraints of fair:", 3}, {0}};
+  const struct argp argp = {
+      .options = options, .parser = parse_option, .args_doc = "COMMAND MESH", .doc = doc, .children = children};
   argp_err_exit_status = EXIT_USAGE;
   argp_parse(&argp, argc, argv, 0, NULL, &p);
 }

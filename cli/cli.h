@@ -5,6 +5,7 @@
 
 #include <fairsurf/fairsurf.h>
 #include <stdio.h>
+#include "constraints.h"
 
 enum { EXIT_REFUSED = 1, EXIT_USAGE = 2, EXIT_NUMERIC = 3, EXIT_FILE = 4, EXIT_FAILED = 5, EXIT_CANCELLED = 130 };
 enum { MAX_OUTPUTS = 64, MAX_PARAM_VALUES = 24 };
@@ -36,12 +37,14 @@ typedef struct arguments {
   const char *name;           /* of the object in the files, or NULL: the stem */
   const char *fixed, *report; /* files, or NULL */
   bool json, no_refine, quiet, start_triharmonic;
-  int32_t refine, nodes, max_iterations, threads, blas_threads;
-  int32_t caps;        /* one of fs_cap_inner, or -1: what suits the functional and the file */
-  const char *refiner; /* of the command refine */
+  int32_t refine, nodes, threads, blas_threads;
+  int32_t max_iterations; /* 0 only measures; -1: as many as the library thinks fit */
+  int32_t caps;           /* one of fs_cap_inner, or -1: what suits the functional and the file */
+  const char *refiner;    /* of the command refine */
   double refiner_param[MAX_PARAM_VALUES];
   const fs_functional *functional;
   double functional_param[MAX_PARAM_VALUES];
+  constraint_arguments constraints;
   const fs_construction *construction; /* of the command patch */
   double construction_param[MAX_PARAM_VALUES];
   const char *normals; /* file, or NULL */
@@ -91,7 +94,7 @@ typedef struct timings {
 /* The report of fairing as JSON, 17 digits; written beside and renamed. */
 fs_status write_report(fs_context *ctx, const char *path, const arguments *arguments, const fs_fair_report *report,
                        const timings *seconds);
-void print_report(FILE *file, const fs_fair_report *report, const timings *seconds);
+void print_report(FILE *file, const arguments *arguments, const fs_fair_report *report, const timings *seconds);
 
 double now(void); /* seconds of a steady clock */
 

@@ -65,6 +65,7 @@ typedef struct job {
   fs_surface *surface;
   bool *fixed;
   fs_vec3 *c;
+  constraint_set constraints;
   fs_cap_notes *caps; /* what c holds behind the vertices, or NULL */
   fs_fair_report report;
   timings seconds;
@@ -149,13 +150,15 @@ static fs_status make_fair(job *j) {
                              .fixed = j->fixed,
                              .n_nodes_square = a->nodes,
                              .n_nodes_cap = a->nodes,
-                             .max_iterations = a->max_iterations == 0 ? -1 : a->max_iterations,
+                             .constraints = &j->constraints.constraints,
+                             .max_iterations = a->max_iterations > 0 ? a->max_iterations : -1 - a->max_iterations,
                              .start_triharmonic = a->start_triharmonic,
                              .monitor = show_step,
                              .monitor_user = &is_shown};
   fs_status status;
   TRY(fs_space_rim(j->ctx, j->fine, j->space, j->fixed));
   TRY(add_marks(j));
+  TRY(make_constraints(j->ctx, &a->constraints, j->fine, j->space, j->c, j->n_steps > 0, j->fixed, &j->constraints));
   fs_space_fix_caps(j->space, j->fixed);
   status = fs_fair(j->ctx, j->space, &options, j->c, &j->report);
   if (is_shown) fprintf(stderr, "\n");
@@ -170,6 +173,7 @@ static fs_status write_outputs(job *j) {
   memcpy(j->control->position, j->c, (size_t)j->control->n_vertices * sizeof *j->c);
   TRY(fs_space_keep_caps(j->ctx, j->control, j->space, j->c, &j->caps));
   TRY(fs_surface_create(j->ctx, j->space, j->c, &j->surface));
+  if (j->constraints.symmetry != NULL) TRY(fs_surface_mirror(j->ctx, j->constraints.symmetry, j->surface));
   for (int32_t i = 0; i < a->n_outputs; i++) {
     const output_request *o = &a->output[i];
     bool is_surface = o->is_surface || o->exporter->what == FS_EXPORT_SURFACE;
@@ -248,13 +252,14 @@ static fs_status run(job *j) {
   j->seconds.total = t - start;
   if (a->command == COMMAND_FAIR) {
     if (a->report != NULL) TRY(write_report(j->ctx, a->report, a, &j->report, &j->seconds));
-    if (!a->quiet) print_report(stderr, &j->report, &j->seconds);
+    if (!a->quiet) print_report(stderr, a, &j->report, &j->seconds);
   }
   return FS_OK;
 }
 
 static void job_free(job *j) {
   fs_surface_free(j->ctx, j->surface);
+  free_constraints(j->ctx, &j->constraints);
   fs_cap_notes_free(j->ctx, j->caps);
   fs_space_free(j->ctx, j->space);
   for (int32_t s = 0; s < j->n_steps; s++) fs_refinement_free(j->ctx, j->step[s]);

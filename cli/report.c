@@ -58,6 +58,11 @@ static void put_report(FILE *file, const arguments *a, const fs_fair_report *r, 
   fprintf(file, "  \"free\": %d,\n  \"free_inner\": %d,\n  \"squares\": %d,\n  \"caps\": %d,\n  ", r->n_free,
           r->n_free_inner, r->n_squares, r->n_caps);
   put_number(file, "c", r->c, ",\n");
+  if (r->n_unknowns != r->n_free) fprintf(file, "  \"unknowns\": %d,\n", r->n_unknowns);
+  if (a->constraints.stay_within > 0) {
+    fprintf(file, "  ");
+    put_number(file, "distance", r->distance, ",\n");
+  }
   put_energy(file, "start", &r->start);
   put_energy(file, "end", &r->end);
   fprintf(file, "  \"steps\": %d,\n  \"hessians\": %d,\n  \"factorisations\": %d,\n  \"stop\": \"%s\",\n", r->n_steps,
@@ -122,12 +127,17 @@ static void print_energy(FILE *file, const char *name, const fs_energy *e) {
           e->gradient);
 }
 
-void print_report(FILE *file, const fs_fair_report *r, const timings *t) {
+void print_report(FILE *file, const arguments *a, const fs_fair_report *r, const timings *t) {
   fprintf(file, "%d free vertices, %d squares, %d caps", r->n_free - r->n_free_inner, r->n_squares, r->n_caps);
   if (r->n_free_inner > 0) fprintf(file, " with %d free inner coefficients", r->n_free_inner);
   fputc('\n', file);
+  if (r->n_unknowns != r->n_free) fprintf(file, "%d unknown points under the constraints\n", r->n_unknowns);
   print_energy(file, "start", &r->start);
   print_energy(file, "end", &r->end);
+  if (a->constraints.stay_within > 0)
+    fprintf(file, "largest distance from %s: %.6g of %.6g\n",
+            a->constraints.stay_near != NULL ? a->constraints.stay_near : "the start", r->distance,
+            a->constraints.stay_within);
   fprintf(file, "%d steps, %d Hessians, %d factorisations, stopped by %s, %.2f s of %.2f s\n", r->n_steps,
           r->n_hessians, r->n_factorisations, fs_stop_text(r->stop), t->fair, t->total);
 }

@@ -44,7 +44,7 @@ def section(title, data):
 def run_case(fairsurf, words):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for sample in [*SAMPLES.glob("meshes/*.obj"), *SAMPLES.glob("patches/*.[obsx][bvpy]*")]:
+        for sample in [*SAMPLES.glob("meshes/*.obj"), *SAMPLES.glob("constraints/*.txt"), *SAMPLES.glob("patches/*.[obsx][bvpy]*")]:
             shutil.copy(sample, folder)
         before = {path.name for path in folder.iterdir()}
         result = subprocess.run([fairsurf, *words], cwd=folder, capture_output=True, check=False, timeout=300)
