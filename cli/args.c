@@ -36,6 +36,10 @@ enum {
   KEY_COMPARE,
   KEY_CONSTRUCTION,
   KEY_NORMALS,
+  KEY_POLISH,
+  KEY_MAX_TIME,
+  KEY_STOP_DECREASE,
+  KEY_EVERY,
   KEY_PARAM = 2000 /* + number of a parameter in the list below */
 };
 
@@ -145,6 +149,14 @@ static int32_t parse_integer(struct argp_state *state, const char *option, const
   if (end == text || *end != '\0' || errno != 0 || value < min || value > max)
     argp_error(state, "--%s %s: a whole number from %d to %d is needed", option, text, min, max);
   return (int32_t)value;
+}
+
+static double parse_real(struct argp_state *state, const char *option, const char *text, double min, double max) {
+  char *end;
+  double value = strtod(text, &end);
+  if (end == text || *end != '\0' || !(value >= min && value <= max))
+    argp_error(state, "--%s %s: a number from %g to %g is needed", option, text, min, max);
+  return value;
 }
 
 static void add_event(struct argp_state *state, parser *p, event e) {
@@ -293,6 +305,18 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case KEY_ITERATIONS:
     a->max_iterations = parse_integer(state, "max-iterations", text, 0, INT_MAX);
     break;
+  case KEY_POLISH:
+    a->polish = true;
+    break;
+  case KEY_MAX_TIME:
+    a->max_seconds = parse_real(state, "max-time", text, 1e-3, 1e9);
+    break;
+  case KEY_STOP_DECREASE:
+    a->stop_decrease = parse_real(state, "stop-decrease", text, 1e-15, 1);
+    break;
+  case KEY_EVERY:
+    a->every = text;
+    break;
   case KEY_THREADS:
     a->threads = parse_integer(state, "threads", text, 1, 64);
     break;
@@ -376,6 +400,11 @@ static const struct argp_option fixed_options[] = {
     {"start", KEY_START, "WHAT", 0, "mesh: the given positions; triharmonic: the minimum of a linear problem", 0},
     {"nodes", KEY_NODES, "N", 0, "Gauss nodes per direction, everywhere (default: 8 on squares, 12 in caps)", 0},
     {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100, or 400 with --stay-within); 0 only measures", 0},
+    {"polish", KEY_POLISH, NULL, 0, "go on with a hundredth of C: a little fairer, takes longer", 0},
+    {"max-time", KEY_MAX_TIME, "SECONDS", 0, "stop after so many seconds with the best surface so far", 0},
+    {"stop-decrease", KEY_STOP_DECREASE, "PART", 0, "stop when a step promises less than this part of the functional",
+     0},
+    {"every", KEY_EVERY, "FOLDER", 0, "write every iterate as FOLDER/iter0000.ply, …", 0},
     {"threads", KEY_THREADS, "N", 0, "threads (1)", 0},
     {"blas-threads", KEY_BLAS_THREADS, "N", 0, "threads of the linear algebra (1)", 0},
     {NULL, 0, NULL, 0, "Patches:", 4},

@@ -36,7 +36,9 @@ typedef struct arguments {
   output_request output[MAX_OUTPUTS];
   const char *name;           /* of the object in the files, or NULL: the stem */
   const char *fixed, *report; /* files, or NULL */
-  bool json, no_refine, quiet, start_triharmonic;
+  const char *every;          /* folder for every iterate, or NULL */
+  bool json, no_refine, quiet, start_triharmonic, polish;
+  double max_seconds, stop_decrease; /* 0: no limit, that of the library */
   int32_t refine, nodes, threads, blas_threads;
   int32_t max_iterations; /* 0 only measures; -1: as many as the library thinks fit */
   int32_t caps;           /* one of fs_cap_inner, or -1: what suits the functional and the file */
@@ -95,6 +97,16 @@ typedef struct timings {
 fs_status write_report(fs_context *ctx, const char *path, const arguments *arguments, const fs_fair_report *report,
                        const timings *seconds);
 void print_report(FILE *file, const arguments *arguments, const fs_fair_report *report, const timings *seconds);
+
+/* Every iterate as a file: what --every asks for. */
+typedef struct iterates {
+  const char *folder; /* NULL: none */
+  const fs_mesh *mesh;
+  const fs_space *space;
+  fs_status status; /* of the first file that could not be written */
+} iterates;
+fs_status begin_iterates(fs_context *ctx, iterates *iterates); /* makes the folder where it is not there */
+bool write_iterate(fs_context *ctx, iterates *iterates, const fs_step *step, const fs_vec3 *c); /* false: not written */
 
 double now(void); /* seconds of a steady clock */
 

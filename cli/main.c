@@ -22,12 +22,19 @@ static bool go_on(void *user, const char *stage, double fraction) {
   return !is_interrupted;
 }
 
-static bool show_step(void *user, const fs_step *s) {
-  const bool *is_shown = user;
-  if (*is_shown)
+/* What looks on while fairing goes on. */
+typedef struct onlooker {
+  bool is_shown;
+  fs_context *ctx;
+  iterates iterates;
+} onlooker;
+
+static bool show_step(void *user, const fs_step *s, const fs_vec3 *c) {
+  onlooker *o = user;
+  if (o->is_shown)
     fprintf(stderr, "\r%3d  F %-18.12g gradient %-10.3g damping %-9.2g %6.1f s ", s->number, s->value, s->gradient,
             s->damping, s->seconds);
-  return !is_interrupted;
+  return write_iterate(o->ctx, &o->iterates, s, c) && !is_interrupted;
 }
 
 static void print_note(void *user, const char *text) {
@@ -144,7 +151,7 @@ static fs_status add_marks(job *j) {
 
 static fs_status make_fair(job *j) {
   const arguments *a = j->arguments;
-  bool is_shown = isatty(STDERR_FILENO) && !a->quiet;
+  onlooker o = {isatty(STDERR_FILENO) && !a->quiet, j->ctx, {a->every, j->fine, j->space, FS_OK}};
   fs_fair_options options = {.functional = a->functional,
                              .param = a->functional_param,
                              .fixed = j->fixed,
@@ -152,16 +159,21 @@ static fs_status make_fair(job *j) {
                              .n_nodes_cap = a->nodes,
                              .constraints = &j->constraints.constraints,
                              .max_iterations = a->max_iterations > 0 ? a->max_iterations : -1 - a->max_iterations,
+                             .max_seconds = a->max_seconds,
+                             .decrease_tolerance = a->stop_decrease,
+                             .polish = a->polish,
                              .start_triharmonic = a->start_triharmonic,
-                             .monitor = show_step,
-                             .monitor_user = &is_shown};
+                             .iterate = show_step,
+                             .monitor_user = &o};
   fs_status status;
   TRY(fs_space_rim(j->ctx, j->fine, j->space, j->fixed));
   TRY(add_marks(j));
   TRY(make_constraints(j->ctx, &a->constraints, j->fine, j->space, j->c, j->n_steps > 0, j->fixed, &j->constraints));
   fs_space_fix_caps(j->space, j->fixed);
+  if (a->every != NULL) TRY(begin_iterates(j->ctx, &o.iterates));
   status = fs_fair(j->ctx, j->space, &options, j->c, &j->report);
-  if (is_shown) fprintf(stderr, "\n");
+  if (o.is_shown) fprintf(stderr, "\n");
+  if (status == FS_OK) TRY(o.iterates.status);
   if (status == FS_OK && j->report.n_free == 0) print_note(NULL, "no vertex is free: the surface stays as it is");
   if (j->report.stop == FS_STOP_CANCELLED) print_note(NULL, "cancelled: the best surface so far is written");
   return status;
@@ -227,6 +239,8 @@ static void describe(job *j) {
          a->functional->params != NULL && a->functional->params[i].name != NULL && used < (int)sizeof j->made_with; i++)
       used += snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, " %s=%g", a->functional->params[i].name,
                        a->functional_param[i]);
+    if (a->polish && used < (int)sizeof j->made_with)
+      snprintf(j->made_with + used, sizeof j->made_with - (size_t)used, " polished");
   }
 }
 

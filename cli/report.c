@@ -65,8 +65,9 @@ static void put_report(FILE *file, const arguments *a, const fs_fair_report *r, 
   }
   put_energy(file, "start", &r->start);
   put_energy(file, "end", &r->end);
-  fprintf(file, "  \"steps\": %d,\n  \"hessians\": %d,\n  \"factorisations\": %d,\n  \"stop\": \"%s\",\n", r->n_steps,
-          r->n_hessians, r->n_factorisations, fs_stop_text(r->stop));
+  fprintf(file,
+          "  \"steps\": %d,\n  \"hessians\": %d,\n  \"factorisations\": %d,\n  \"saddles\": %d,\n  \"stop\": \"%s\",\n",
+          r->n_steps, r->n_hessians, r->n_factorisations, r->n_saddles, fs_stop_text(r->stop));
   fprintf(file, "  \"trace\": [");
   for (int32_t i = 0; i < r->n_trace; i++) {
     const fs_step *s = &r->trace[i];

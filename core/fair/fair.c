@@ -4,7 +4,8 @@
    A functional with a continued parameter C (curvature variation) is minimised for C = 1e-2, 1e-3, … down to its value: few
    Newton-like steps each, and a unique result, where the last C alone would need many and may end elsewhere. All but the last
    stage stop early, and run with few quadrature nodes, as does the way to the neighbourhood of a minimum; the last steps see
-   all nodes and converge quadratically. */
+   all nodes and converge quadratically. As C falls, minima turn into saddles, at which symmetric surfaces would stay: where
+   the last factorisation of a stage does not show a minimum, fs_leave_saddle looks for the way down. */
 #include "fair/constrain.h"
 #include "fair/stay_near.h"
 
@@ -12,7 +13,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { MAX_ITERATIONS = 100, MAX_STAGES = 24, MAX_ROUNDS = 12, WALL_SHARE = 100 };
+enum { MAX_ITERATIONS = 100, MAX_STAGES = 24, MAX_SADDLES = 4, MAX_ROUNDS = 12, WALL_SHARE = 100 };
 static const double WALL_EXCESS = 0.004; /* relative to the tolerance */
 
 typedef struct stage {
@@ -20,6 +21,7 @@ typedef struct stage {
   int32_t level;    /* of quadrature: 1 few nodes, 0 all */
   double tolerance; /* predicted decrease, relative */
   bool is_last;
+  bool is_minimum; /* it must not end at a saddle */
 } stage;
 
 /* The whole fairing. */
@@ -36,6 +38,8 @@ typedef struct course {
   int32_t n_rounds;      /* so many times the last stage was begun with the same wall */
   struct timespec start;
   int32_t n_earlier_steps; /* of the stages before */
+  double last_damping;     /* in the last factorisation */
+  double value;            /* at x */
   bool is_out_of_time;
 } course;
 
@@ -48,18 +52,27 @@ static bool is_quadratic(const fs_functional *functional) {
   return true;
 }
 
-static int32_t plan_stages(const fs_setup *s, stage *stages) {
+/* Below the last value whose minimum is unique steps are many and bring little: polishing goes this much further down, and the
+   last two stages end when a step promises less than this; between, a stage that ends early leaves more to the next than it
+   spares. */
+#define UNIQUE 0.99e-4
+#define POLISH_FACTOR 1e-2
+#define POLISH_TOLERANCE 1e-4
+#define BETWEEN_TOLERANCE 1e-5
+
+static int32_t plan_stages(const fs_setup *s, const fs_fair_options *options, stage *stages) {
   int32_t n = 0;
   double last = s->param[0], first = s->functional->is_continued && last < 1e-2 ? 1e-2 : last;
   if (is_quadratic(s->functional)) {
-    stages[n++] = (stage){last, 0, 1e-12, true};
+    stages[n++] = (stage){last, 0, 1e-12, true, false};
     return n;
   }
-  stages[n++] = (stage){first, 1, first == last ? 1e-2 : 1e-3, false};
+  stages[n++] = (stage){first, 1, first == last ? 1e-2 : 1e-3, false, false};
   for (double C = first / 10; C > 1.0001 * last && n < MAX_STAGES - 4; C /= 10)
-    stages[n++] = (stage){C, 1, 1e-3, false};
-  if (first != last) stages[n++] = (stage){last, 1, 1e-3, false};
-  stages[n++] = (stage){last, 0, 1e-12, true};
+    stages[n++] = (stage){C, 1, C < UNIQUE ? BETWEEN_TOLERANCE : 1e-3, false, C < UNIQUE};
+  if (first != last) stages[n++] = (stage){last, 1, last < UNIQUE ? POLISH_TOLERANCE : 1e-3, false, last < UNIQUE};
+  stages[n++] = (stage){last, 0, options->polish ? POLISH_TOLERANCE : 1e-12, true, true};
+  for (int32_t i = 0; i < n; i++) stages[i].tolerance = fmax(stages[i].tolerance, options->decrease_tolerance);
   return n;
 }
 
@@ -71,6 +84,7 @@ static double seconds_since(const struct timespec *start) {
 
 static bool record(void *user, const fs_minimise_step *m) {
   course *c = user;
+  const fs_fair_options *options = c->options;
   fs_step step = {.number = m->number + c->n_earlier_steps,
                   .value = m->value,
                   .gradient = m->gradient,
@@ -81,10 +95,15 @@ static bool record(void *user, const fs_minimise_step *m) {
                   .seconds = seconds_since(&c->start),
                   .c = fs_setup_c(&c->setup)};
   if (m->number == 0 && c->n_earlier_steps > 0) return true; /* the start of a later stage */
+  c->last_damping = m->damping;
   if (c->report->n_trace < FS_MAX_TRACE) c->report->trace[c->report->n_trace++] = step;
-  c->is_out_of_time = c->options->max_seconds > 0 && step.seconds >= c->options->max_seconds;
-  if (c->is_out_of_time) return false;
-  return c->options->monitor == NULL || c->options->monitor(c->options->monitor_user, &step);
+  if (options->iterate != NULL) {
+    fs_setup_place(&c->setup, c->x);
+    if (!options->iterate(options->monitor_user, &step, c->setup.problem->c)) return false;
+  }
+  if (options->monitor != NULL && !options->monitor(options->monitor_user, &step)) return false;
+  c->is_out_of_time = options->max_seconds > 0 && step.seconds >= options->max_seconds;
+  return !c->is_out_of_time;
 }
 
 /* A stiffness of the wall at which going as far again beyond it everywhere would cost many times the functional. */
@@ -102,11 +121,10 @@ static fs_status stiffen_wall(course *c, const fs_objective *objective) {
   return FS_OK;
 }
 
-static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
+static fs_status minimise(course *c, const stage *stage, const fs_objective *objective, bool *is_over) {
   fs_status status = FS_OK;
   const fs_fair_options *options = c->options;
   int32_t max_iterations = options->max_iterations;
-  fs_objective objective = fs_setup_objective(&c->setup, c->solver);
   fs_minimise_report m;
   if (max_iterations == 0) max_iterations = c->setup.wall != NULL ? 4 * MAX_ITERATIONS : MAX_ITERATIONS;
   fs_minimise_options o = {.max_iterations = max_iterations - c->n_earlier_steps,
@@ -117,25 +135,62 @@ static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
                            .user = c};
   if (c->setup.wall != NULL) { /* the forces of the wall change after each stage */
     o.decrease_tolerance = fmax(o.decrease_tolerance, 1e-7);
-  } else if (stage->is_last) {
+  } else if (stage->is_last && stage->tolerance <= 1e-12) {
     o.is_newton = true;
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
     o.gradient_start = c->gradient_start;
   }
-  c->setup.n_cheap_hessians = stage->is_last && stage->level == 0;
-  c->setup.param[0] = stage->C;
-  FS_TRY(fs_problem_set_level(c->setup.problem, stage->level));
-  if (c->setup.wall != NULL && c->n_rounds == 0) FS_TRY(stiffen_wall(c, &objective));
-  FS_TRY(fs_minimise(c->ctx, &objective, &o, c->x, &m));
+  FS_TRY(fs_minimise(c->ctx, objective, &o, c->x, &m));
+  c->value = m.value;
   c->n_earlier_steps += m.n_steps;
   c->report->n_steps += m.n_steps;
   c->report->n_hessians += m.n_hessians;
   c->report->n_factorisations += m.n_factorisations;
   c->report->stop = c->is_out_of_time ? FS_STOP_TIME : (fs_stop)m.stop;
   *is_over = m.stop == FS_MINIMISE_CANCELLED || m.stop == FS_MINIMISE_ITERATIONS;
+done:
+  return status;
+}
+
+/* From a stationary point that need not be a minimum. *has_moved: far enough for the stage to go on. */
+static fs_status leave_saddle(course *c, const fs_objective *objective, double tolerance, bool *has_moved) {
+  fs_status status = FS_OK;
+  fs_saddle_report saddle = {0};
+  c->setup.n_cheap_hessians = 0;
+  c->damping = (fs_damping){0};
+  FS_TRY(fs_leave_saddle(c->ctx, objective, &c->damping.nu, c->x, &saddle));
+  c->report->n_hessians++;
+  c->report->n_factorisations += saddle.n_factorisations;
+  c->report->n_saddles += saddle.has_moved;
+  *has_moved = saddle.decrease > tolerance * fabs(c->value);
+done:
+  return status;
+}
+
+static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
+  fs_status status = FS_OK;
+  fs_objective objective = fs_setup_objective(&c->setup, c->solver);
+  bool has_moved = true;
+  c->setup.n_cheap_hessians = stage->is_last && stage->level == 0;
+  c->setup.param[0] = stage->C;
+  FS_TRY(fs_problem_set_level(c->setup.problem, stage->level));
+  if (c->setup.wall != NULL && c->n_rounds == 0) FS_TRY(stiffen_wall(c, &objective));
+  for (int32_t round = 0; has_moved && !*is_over; round++) {
+    FS_TRY(minimise(c, stage, &objective, is_over));
+    has_moved = false;
+    if (*is_over || !stage->is_minimum || c->setup.wall != NULL || round == MAX_SADDLES ||
+        c->last_damping <= FS_DEFINITE_DAMPING)
+      break;
+    FS_TRY(leave_saddle(c, &objective, stage->tolerance, &has_moved));
+  }
   fs_setup_place(&c->setup, c->x);
   if (c->setup.wall != NULL) FS_TRY(fs_wall_learn(c->setup.wall, &c->excess));
 done:
+  if (status == FS_ERR_CANCELLED) { /* c->x is the best point met */
+    c->report->stop = FS_STOP_CANCELLED;
+    *is_over = true;
+    status = FS_OK;
+  }
   return status;
 }
 
@@ -165,7 +220,7 @@ static fs_status run_stages(course *c) {
   fs_status status = FS_OK;
   stage stages[MAX_STAGES];
   double last = c->setup.param[0];
-  int32_t n = plan_stages(&c->setup, stages);
+  int32_t n = plan_stages(&c->setup, c->options, stages);
   bool is_over = false;
   c->damping = (fs_damping){.nu = is_quadratic(c->setup.functional) ? 0 : 1};
   for (int32_t i = 0; i < n && !is_over; i++) FS_TRY(run_stage(c, &stages[i], &is_over));
@@ -283,6 +338,12 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
   course c = {.ctx = ctx, .options = &own, .report = &r};
   clock_gettime(CLOCK_MONOTONIC, &c.start);
   FS_TRY(begin_constraints(&c, space, dofs, &own));
+  if (options->polish && !c.setup.functional->is_continued) {
+    status = fs_fail(ctx, FS_ERR_ARGUMENT, "%s has no weight that is lowered: there is nothing to polish",
+                     c.setup.functional->name);
+    goto done;
+  }
+  if (options->polish) c.setup.param[0] *= POLISH_FACTOR;
   r.functional = c.setup.functional;
   r.n_free = c.setup.problem->n_free;
   r.n_free_inner = count_free_inner(c.setup.problem);

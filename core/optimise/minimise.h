@@ -60,4 +60,20 @@ typedef struct fs_minimise_report {
 fs_status fs_minimise(fs_context *ctx, const fs_objective *objective, const fs_minimise_options *options, double *x,
                       fs_minimise_report *report);
 
+/* A Hessian that this much of its diagonal makes positive definite counts as definite. */
+#define FS_DEFINITE_DAMPING 1e-9
+
+/* What fs_leave_saddle found. */
+typedef struct fs_saddle_report {
+  bool has_moved;   /* x was no minimum: it lies lower now */
+  double curvature; /* least eigenvalue of the Hessian relative to its diagonal; 0: not looked for, none is negative */
+  double decrease;  /* of the value */
+  int32_t n_factorisations;
+} fs_saddle_report;
+
+/* At a stationary point x[3 n]: moves along the direction of least curvature where that is negative, so that a minimisation
+   may go on from there with a damping of *nu. A minimum stays. The solver's factorisation is lost. */
+fs_status fs_leave_saddle(fs_context *ctx, const fs_objective *objective, double *nu, double *x,
+                          fs_saddle_report *report);
+
 #endif

@@ -147,9 +147,14 @@ typedef struct fs_fair_options {
   double max_seconds;                  /* 0: no limit */
   int32_t max_iterations;    /* 0: 100, or 400 with a tolerance; negative: none, only the energies are reported */
   double gradient_tolerance; /* relative to the start; 0: 1e-8 */
+  double decrease_tolerance; /* above 0: stop where a step promises less than this part of the functional; then the
+                                gradient is not asked for */
+  bool polish;               /* lower a continued parameter to a hundredth of its value, as long as a step brings 1e-4:
+                                fairer by a little, squares less even, and the minimum need not be unique */
   bool start_triharmonic;    /* begin at the minimum of the triharmonic functional (a linear problem) */
   bool (*monitor)(void *user, const fs_step *step); /* called after every accepted step; false cancels */
-  void *monitor_user;
+  bool (*iterate)(void *user, const fs_step *step, const fs_vec3 *c); /* likewise, with the dofs, lent for the call */
+  void *monitor_user;                                                 /* for both */
 } fs_fair_options;
 
 enum { FS_MAX_TRACE = 256 };
@@ -160,7 +165,8 @@ typedef struct fs_fair_report {
   int32_t n_free_inner;              /* those of n_free that are inner coefficients of caps */
   int32_t n_unknowns;                /* points that remain to be chosen when constraints are met; n_free without any */
   int32_t n_steps, n_hessians, n_factorisations;
-  double distance; /* with a tolerance: the largest distance from the target that was measured at the end */
+  int32_t n_saddles; /* stationary points that were no minima, and were left */
+  double distance;   /* with a tolerance: the largest distance from the target that was measured at the end */
   double kept; /* where nothing is fixed: the area or the volume at the end, divided by that at the start, minus 1 */
   double c;    /* weight of Q in F; 0 where the functional has no such term */
   fs_energy start, end;

@@ -289,6 +289,26 @@ static bool stop_at_second_step(void *user, const fs_step *step) {
   return step->number < 2;
 }
 
+typedef struct iterates {
+  int32_t n, n_dofs;
+  fs_vec3 *last;
+  double value;
+} iterates;
+
+static bool keep_iterate(void *user, const fs_step *step, const fs_vec3 *c) {
+  iterates *it = user;
+  assert_int_equal(step->number, it->n++);
+  memcpy(it->last, c, (size_t)it->n_dofs * sizeof *c);
+  it->value = step->value;
+  return step->number < 3;
+}
+
+static bool cancel_at_once(void *user, const char *stage, double fraction) {
+  int *n_left = user;
+  (void)stage, (void)fraction;
+  return --*n_left > 0;
+}
+
 static void test_course(void **state) {
   fs_context ctx = test_context();
   fs_mesh *mesh = sphere_cap();
@@ -328,6 +348,45 @@ static void test_course(void **state) {
   assert_int_equal(cut.stop, FS_STOP_CANCELLED);
   assert_true(cut.end.F < cut.start.F && cut.n_steps == 2);
   options.monitor = NULL;
+
+  /* every iterate, the start first; the last one is the result */
+  iterates it = {.n_dofs = space->n_dofs, .last = calloc((size_t)space->n_dofs, sizeof *c)};
+  memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+  options.iterate = keep_iterate;
+  options.monitor_user = &it;
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_OK);
+  assert_true(it.n == 4 && cut.n_steps == 3 && cut.stop == FS_STOP_CANCELLED);
+  assert_memory_equal(c, it.last, (size_t)space->n_dofs * sizeof *c);
+  options.iterate = NULL;
+  free(it.last);
+
+  /* no time: the start; a progress function that cancels: the best iterate so far, whenever it says so */
+  memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+  options.max_seconds = 1e-9;
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_OK);
+  assert_true(cut.stop == FS_STOP_TIME && cut.n_steps == 0 && cut.end.F == cut.start.F);
+  options.max_seconds = 0;
+  for (int n = 1; n < 16; n += 3) {
+    int n_left = n;
+    fs_context watched = test_context();
+    watched.progress = cancel_at_once;
+    watched.user = &n_left;
+    memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+    fs_status status = fs_fair(&watched, space, &options, c, &cut);
+    assert_true(status == FS_OK || status == FS_ERR_CANCELLED);
+    if (status == FS_OK) assert_true(cut.stop == FS_STOP_CANCELLED && cut.end.F <= cut.start.F);
+    if (status != FS_OK) assert_memory_equal(c, start, (size_t)space->n_dofs * sizeof *c);
+  }
+
+  /* a wide tolerance ends early; polishing needs something to lower */
+  memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+  options.decrease_tolerance = 0.1;
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_OK);
+  assert_true(cut.stop == FS_STOP_DECREASE && cut.n_steps < full.n_steps);
+  options.decrease_tolerance = 0;
+  options.polish = true;
+  assert_int_equal(fs_fair(&ctx, space, &options, c, &cut), FS_ERR_ARGUMENT);
+  options.polish = false;
 
   /* the triharmonic functional is quadratic: one step */
   memcpy(c, start, (size_t)space->n_dofs * sizeof *c);

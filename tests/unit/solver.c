@@ -199,10 +199,64 @@ static void test_memory(void **state) {
   fs_memory_release(&ctx, &memory);
 }
 
+/* f = sum of 1 + (x_0^2 + x_1^2) / 2 + x_2^4 / 4 - x_2^2 / 2 in every group, coupled by nothing: a saddle where all x_2 = 0, minima
+   where all are -1 or 1, of value 3/4 a group. */
+static fs_status double_well(const double *x, double *f, double *g, fs_sparse *h) {
+  *f = 0;
+  if (h != NULL) fs_sparse_clear(h);
+  for (int32_t i = 0; i < GROUPS; i++) {
+    const double *p = x + 3 * i;
+    double block[9] = {1, 0, 0, 0, 1, 0, 0, 0, 3 * p[2] * p[2] - 1};
+    *f += 1 + (p[0] * p[0] + p[1] * p[1]) / 2 + p[2] * p[2] * (p[2] * p[2] / 4 - 0.5);
+    g[3 * i] = p[0];
+    g[3 * i + 1] = p[1];
+    g[3 * i + 2] = p[2] * (p[2] * p[2] - 1);
+    if (h != NULL) fs_sparse_add(h, i, i, block);
+  }
+  return FS_OK;
+}
+static fs_status w_gradient(void *self, const double *x, double *f, double *g) {
+  return (void)self, double_well(x, f, g, NULL);
+}
+static fs_status w_hessian(void *self, const double *x, double *f, double *g, fs_sparse *h) {
+  return (void)self, double_well(x, f, g, h);
+}
+
+static void test_saddle(void **state) {
+  fs_context ctx = test_context();
+  fs_sparse *pattern = make_band(&ctx, GROUPS);
+  fs_objective objective = {GROUPS, pattern, NULL, NULL, w_gradient, w_hessian, NULL};
+  fs_damping damping = {.nu = 1};
+  fs_minimise_options options = {.max_iterations = 100, .decrease_tolerance = 1e-14, .damping = &damping};
+  fs_minimise_report report;
+  fs_saddle_report saddle;
+  double x[3 * GROUPS], kept[3 * GROUPS], f, g[3 * GROUPS];
+  int n_left = 0;
+  (void)state;
+  for (int i = 0; i < 3 * GROUPS; i++) x[i] = i % 3 == 2 ? 0 : 0.5;
+  assert_int_equal(fs_solver_create(&ctx, pattern, &objective.solver), FS_OK);
+  while (true) { /* steps alone end at the saddle; each time some of the wells are found */
+    damping.is_factored = false;
+    assert_int_equal(fs_minimise(&ctx, &objective, &options, x, &report), FS_OK);
+    memcpy(kept, x, sizeof kept);
+    assert_int_equal(fs_leave_saddle(&ctx, &objective, &damping.nu, x, &saddle), FS_OK);
+    if (!saddle.has_moved) break;
+    assert_true(saddle.curvature < 0 && saddle.decrease > 0);
+    n_left++;
+    assert_true(n_left <= GROUPS);
+  }
+  assert_true(n_left >= 1);
+  assert_memory_equal(x, kept, sizeof x);
+  assert_int_equal(double_well(x, &f, g, NULL), FS_OK);
+  assert_true(fabs(f - 0.75 * GROUPS) <= 1e-12);
+  fs_solver_free(&ctx, objective.solver);
+  fs_sparse_free(&ctx, pattern);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pattern),    cmocka_unit_test(test_solve),  cmocka_unit_test(test_diagonal),
-      cmocka_unit_test(test_rosenbrock), cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_pattern), cmocka_unit_test(test_solve),      cmocka_unit_test(test_diagonal),
+      cmocka_unit_test(test_saddle),  cmocka_unit_test(test_rosenbrock), cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

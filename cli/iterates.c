@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/* Single role: every iterate of a fairing as a file, DIR/iter0000.ply, … */
+#include "cli.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+fs_status begin_iterates(fs_context *ctx, iterates *it) {
+  if (mkdir(it->folder, 0777) == 0 || errno == EEXIST) return FS_OK;
+  snprintf(ctx->message, sizeof ctx->message, "%s: %s", it->folder, strerror(errno));
+  return FS_ERR_IO;
+}
+
+static fs_status write(fs_context *ctx, const iterates *it, int32_t number, const fs_vec3 *c) {
+  fs_status status;
+  fs_mesh *control = NULL;
+  fs_cap_notes *caps = NULL;
+  char path[4096], name[32];
+  if (snprintf(path, sizeof path, "%s/iter%04d.ply", it->folder, number) >= (int)sizeof path) {
+    snprintf(ctx->message, sizeof ctx->message, "the path of %s is too long", it->folder);
+    return FS_ERR_IO;
+  }
+  snprintf(name, sizeof name, "iter%04d", number);
+  status = fs_mesh_copy(ctx, it->mesh, &control);
+  if (status == FS_OK) {
+    memcpy(control->position, c, (size_t)control->n_vertices * sizeof *c);
+    status = fs_space_keep_caps(ctx, control, it->space, c, &caps);
+  }
+  if (status == FS_OK)
+    status = fs_export_file(ctx, &(fs_model){.name = name, .control = control, .caps = caps}, NULL, path);
+  fs_cap_notes_free(ctx, caps);
+  fs_mesh_free(ctx, control);
+  return status;
+}
+
+bool write_iterate(fs_context *ctx, iterates *it, const fs_step *step, const fs_vec3 *c) {
+  if (it->folder != NULL && it->status == FS_OK) it->status = write(ctx, it, step->number, c);
+  return it->status == FS_OK;
+}
