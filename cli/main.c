@@ -154,6 +154,7 @@ static fs_status make_fair(job *j) {
   onlooker o = {isatty(STDERR_FILENO) && !a->quiet, j->ctx, {a->every, j->fine, j->space, FS_OK}};
   fs_fair_options options = {.functional = a->functional,
                              .param = a->functional_param,
+                             .mesh = j->fine,
                              .fixed = j->fixed,
                              .n_nodes_square = a->nodes,
                              .n_nodes_cap = a->nodes,

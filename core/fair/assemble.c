@@ -7,7 +7,7 @@
    All terms are added at the point, before the chain rule to the dofs; those fed derivatives by the coordinates of a chart are
    turned into derivatives by (u, v) first. Elements are computed in parallel,
    a batch at a time, and added in their order, so that results do not depend on the number of threads. */
-#include "fair/problem.h"
+#include "fair/scatter.h"
 
 #include <math.h>
 #include <string.h>
@@ -124,7 +124,7 @@ static fs_status run_batch(void *user, int32_t begin, int32_t end, int32_t worke
     const fs_element *e = &p->space->element[b->first + i];
     const fs_basis_table *table = p->table[e->extraction];
     fs_element_result *result = &p->result[i];
-    fs_order order = b->order > FS_VALUE && has_free_dof(p, e, table->n_dofs) ? b->order : FS_VALUE;
+    result->order = b->order > FS_VALUE && has_free_dof(p, e, table->n_dofs) ? b->order : FS_VALUE;
     for (int32_t d = 0; d < table->n_dofs; d++) {
       fs_vec3 c = p->c[p->space->dof[e->dof_start + d]];
       s->c[3 * d] = c.x;
@@ -132,36 +132,15 @@ static fs_status run_batch(void *user, int32_t begin, int32_t end, int32_t worke
       s->c[3 * d + 2] = c.z;
     }
     memset(result->integral, 0, sizeof result->integral);
-    if (order >= FS_GRADIENT) memset(result->gradient, 0, 3 * (size_t)table->n_dofs * sizeof(double));
-    if (order >= FS_HESSIAN && table->product == NULL)
+    if (result->order >= FS_GRADIENT) memset(result->gradient, 0, 3 * (size_t)table->n_dofs * sizeof(double));
+    if (result->order >= FS_HESSIAN && table->product == NULL)
       memset(result->hessian, 0, 6 * (size_t)table->n_padded * (size_t)table->n_padded * sizeof(double));
-    add_element(p, table, order, s, result);
+    add_element(p, table, result->order, s, result);
+    if (result->order < FS_HESSIAN) continue;
+    fs_element_list(p, e, table->n_dofs, result);
+    if (p->reduction != NULL) fs_element_reduce(p, e, table->n_dofs, table->n_padded, p->work[worker], result);
   }
   return FS_OK;
-}
-
-/* Adds the 3x3 blocks of an element's Hessian for all ordered pairs (a, b) whose unknowns i >= j. Where a dof occurs twice in
-   an element (small closed meshes) both pairs go to the diagonal block. */
-static void scatter_hessian(const fs_problem *p, const fs_element *e, const fs_basis_table *table, const double *h,
-                            fs_sparse *hessian) {
-  static const int pair[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-  size_t m = (size_t)table->n_padded;
-  for (int32_t a = 0; a < table->n_dofs; a++) {
-    int32_t i = p->unknown[p->space->dof[e->dof_start + a]];
-    if (i == FS_NONE) continue;
-    for (int32_t b = 0; b < table->n_dofs; b++) {
-      int32_t j = p->unknown[p->space->dof[e->dof_start + b]];
-      double block[9];
-      if (j == FS_NONE || i < j) continue;
-      for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) { /* component r of dof a, component c of dof b */
-          bool is_swapped = r > c || (r == c && a > b);
-          size_t row = (size_t)(is_swapped ? b : a), column = (size_t)(is_swapped ? a : b);
-          block[3 * r + c] = h[((size_t)pair[r][c] * m + row) * m + column];
-        }
-      fs_sparse_add(hessian, i, j, block);
-    }
-  }
 }
 
 fs_status fs_problem_evaluate(fs_problem *p, fs_order order, double *integral, double *integral_caps, double *g,
@@ -183,14 +162,14 @@ fs_status fs_problem_evaluate(fs_problem *p, fs_order order, double *integral, d
         all[t] += result->integral[t];
         if (space->extraction[e->extraction].valence != 4) caps[t] += result->integral[t];
       }
-      if (order == FS_VALUE || !has_free_dof(p, e, table->n_dofs)) continue;
+      if (result->order == FS_VALUE) continue;
       for (int32_t d = 0; d < table->n_dofs; d++) {
         int32_t unknown = p->unknown[space->dof[e->dof_start + d]];
         if (unknown == FS_NONE) continue;
         for (int k = 0; k < 3; k++) g[3 * (size_t)unknown + k] += result->gradient[3 * d + k];
       }
-      if (order >= FS_HESSIAN) scatter_hessian(p, e, table, result->hessian, hessian);
     }
+    if (order >= FS_HESSIAN) FS_TRY(fs_scatter_hessians(p, first, n, hessian));
   }
   if (integral != NULL) memcpy(integral, all, sizeof *all * (size_t)p->n_terms);
   if (integral_caps != NULL) memcpy(integral_caps, caps, sizeof *caps * (size_t)p->n_terms);

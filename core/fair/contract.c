@@ -114,3 +114,25 @@ void FS_KERNEL(fs_hessian)(int32_t m, const double *by_point, const double *ddf,
       }
   }
 }
+
+/* work = h T, out = T^T work; lower triangles are filled in before where only the upper one is there. */
+void FS_KERNEL(fs_congruence)(int32_t m, int32_t m_padded, int32_t n, const double *T, double *h, double *work,
+                              double *out) {
+  for (int pair = 0; pair < 6; pair++, h += (size_t)m_padded * m_padded, out += (size_t)n * n) {
+    bool is_symmetric = pair == 0 || pair == 3 || pair == 5;
+    for (int32_t i = 0; is_symmetric && i < m; i++)
+      for (int32_t j = 0; j < i; j++) h[(size_t)i * m_padded + j] = h[(size_t)j * m_padded + i];
+    for (int32_t i = 0; i < m; i++)
+      for (int32_t k = 0; k < n; k += FS_LANES) {
+        lanes sum = {0};
+        for (int32_t j = 0; j < m; j++) sum += h[(size_t)i * m_padded + j] * lanes_load(T + (size_t)j * n + k);
+        lanes_store(work + (size_t)i * n + k, sum);
+      }
+    for (int32_t i = 0; i < n; i++)
+      for (int32_t k = 0; k < n; k += FS_LANES) {
+        lanes sum = {0};
+        for (int32_t j = 0; j < m; j++) sum += T[(size_t)j * n + i] * lanes_load(work + (size_t)j * n + k);
+        lanes_store(out + (size_t)i * n + k, sum);
+      }
+  }
+}

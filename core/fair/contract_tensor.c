@@ -16,16 +16,20 @@ static const signed char order_u[N_DERIVATIVES] = {1, 0, 2, 1, 0, 3, 2, 1, 0};
 static const signed char order_v[N_DERIVATIVES] = {0, 1, 0, 1, 2, 0, 1, 2, 3};
 
 /* row[p_i, p_j][9][16] += over the points l = first .. last - 1 of the block, which are nodes q + l of one row. */
-static inline void add_along_u(const fs_tensor *t, int32_t q, int first, int last, const double *ddf, double *row) {
+static inline void add_along_u(fs_tensor *t, int32_t q, int first, int last, const double *ddf, double *row) {
   for (int i = 0; i < N_DERIVATIVES; i++)
     for (int j = i; j < N_DERIVATIVES; j++) {
       const double *u = ddf + (size_t)pair_of(i, j) * 9 * FS_BLOCK, half = i == j ? 0.5 : 1.0;
       const double *product = t->product + (size_t)((4 * order_u[i] + order_u[j]) * t->n_nodes + q) * SIDE;
-      double *out = row + (size_t)(4 * order_v[i] + order_v[j]) * 9 * SIDE;
+      int part = 4 * order_v[i] + order_v[j];
+      double *out = row + (size_t)part * 9 * SIDE;
+      bool is_new = !(t->used >> part & 1);
+      t->used |= 1u << part;
       for (int z = 0; z < 9; z += Z_TILE) {
         lanes sum[Z_TILE][N_LANES];
         for (int k = 0; k < Z_TILE; k++)
-          for (int w = 0; w < N_LANES; w++) sum[k][w] = lanes_load(out + (z + k) * SIDE + w * FS_LANES);
+          for (int w = 0; w < N_LANES; w++)
+            sum[k][w] = is_new ? (lanes){0} : lanes_load(out + (z + k) * SIDE + w * FS_LANES);
         for (int l = first; l < last; l++) {
           lanes p[N_LANES];
           for (int w = 0; w < N_LANES; w++) p[w] = lanes_load(product + (l - first) * SIDE + w * FS_LANES);
@@ -40,15 +44,16 @@ static inline void add_along_u(const fs_tensor *t, int32_t q, int first, int las
     }
 }
 
-/* sum[9][16][16] += row[p_i, p_j][9][16] times the products of node r along v; clears the row. */
-static inline void add_along_v(const fs_tensor *t, int32_t r, double *row, double *sum) {
+/* sum[9][16][16] += row[p_i, p_j][9][16] times the products of node r along v, where row holds something; empties the row. */
+static inline void add_along_v(fs_tensor *t, int32_t r, const double *row, double *sum) {
   for (int z = 0; z < 9; z++)
     for (int x = 0; x < SIDE; x += ROW_TILE) {
       double *out = sum + ((size_t)z * SIDE + x) * SIDE;
       lanes s[ROW_TILE][N_LANES];
       for (int k = 0; k < ROW_TILE; k++)
-        for (int w = 0; w < N_LANES; w++) s[k][w] = lanes_load(out + k * SIDE + w * FS_LANES);
+        for (int w = 0; w < N_LANES; w++) s[k][w] = r == 0 ? (lanes){0} : lanes_load(out + k * SIDE + w * FS_LANES);
       for (int g = 0; g < 16; g++) {
+        if (!(t->used >> g & 1)) continue;
         const double *product = t->product + (size_t)(g * t->n_nodes + r) * SIDE, *from = row + (g * 9 + z) * SIDE + x;
         for (int w = 0; w < N_LANES; w++) {
           lanes p = lanes_load(product + w * FS_LANES);
@@ -58,7 +63,7 @@ static inline void add_along_v(const fs_tensor *t, int32_t r, double *row, doubl
       for (int k = 0; k < ROW_TILE; k++)
         for (int w = 0; w < N_LANES; w++) lanes_store(out + k * SIDE + w * FS_LANES, s[k][w]);
     }
-  memset(row, 0, 16 * 9 * SIDE * sizeof *row);
+  t->used = 0;
 }
 
 void FS_KERNEL(fs_hessian_tensor)(fs_tensor *t, int32_t block, const double *ddf) {
@@ -71,7 +76,7 @@ void FS_KERNEL(fs_hessian_tensor)(fs_tensor *t, int32_t block, const double *ddf
   }
 }
 
-/* h[pair of components][dof][dof] = X + X^T, dof (x, y) being number x + 4 y; clears the sums. */
+/* h[pair of components][dof][dof] = X + X^T, dof (x, y) being number x + 4 y. */
 void FS_KERNEL(fs_hessian_tensor_finish)(fs_tensor *t, double *h) {
   static const signed char pairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
   for (int pair = 0; pair < 6; pair++) {
@@ -84,5 +89,4 @@ void FS_KERNEL(fs_hessian_tensor_finish)(fs_tensor *t, double *h) {
             h[(pair * SIDE + x + 4 * y) * SIDE + k + 4 * l] =
                 direct[(4 * x + k) * SIDE + 4 * y + l] + turned[(4 * k + x) * SIDE + 4 * l + y];
   }
-  memset(t->sum, 0, sizeof t->sum);
 }

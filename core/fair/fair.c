@@ -7,22 +7,19 @@
    all nodes and converge quadratically. As C falls, minima turn into saddles, at which symmetric surfaces would stay: where
    the last factorisation of a stage does not show a minimum, fs_leave_saddle looks for the way down. */
 #include "fair/constrain.h"
+#include "fair/stages.h"
 #include "fair/stay_near.h"
 
 #include <math.h>
 #include <string.h>
 #include <time.h>
 
-enum { MAX_ITERATIONS = 100, MAX_STAGES = 24, MAX_SADDLES = 4, MAX_ROUNDS = 12, WALL_SHARE = 100 };
+enum { MAX_ITERATIONS = 100, MAX_SADDLES = 4, MAX_ROUNDS = 12, WALL_SHARE = 100 };
 static const double WALL_EXCESS = 0.004; /* relative to the tolerance */
 
-typedef struct stage {
-  double C;         /* first parameter of the functional */
-  int32_t level;    /* of quadrature: 1 few nodes, 0 all */
-  double tolerance; /* predicted decrease, relative */
-  bool is_last;
-  bool is_minimum; /* it must not end at a saddle */
-} stage;
+/* Fewer free dofs are quicker at once; and the least number of coarse unknowns that is worth having. */
+enum { LEAST_FREE = 1500, LEAST_COARSE = 200 };
+static const double FINER_DAMPING = 1e-6; /* to begin with after a coarser mesh */
 
 /* The whole fairing. */
 typedef struct course {
@@ -30,51 +27,24 @@ typedef struct course {
   const fs_fair_options *options;
   fs_fair_report *report;
   fs_setup setup;
-  fs_base base; /* with linear constraints: the dofs by fewer numbers */
+  fs_base base;     /* with linear constraints: the dofs by fewer numbers */
+  int32_t n_coarse; /* depths that there are */
+  fs_reduction *coarse[FS_MAX_COARSE];
+  int32_t depth; /* of the solver and the unknowns */
   fs_solver *solver;
   fs_damping damping;
-  double *x, *g, gradient_start;
-  double *begin, excess; /* with a wall: x at the start, and how far samples are beyond it */
-  int32_t n_rounds;      /* so many times the last stage was begun with the same wall */
+  double *x, *y, *g, gradient_start; /* x: the unknowns of depth 0; y: those of others, while they are */
+  double *begin, excess;             /* with a wall: x at the start, and how far samples are beyond it */
+  int32_t n_rounds;                  /* so many times the last stage was begun with the same wall */
   struct timespec start;
   int32_t n_earlier_steps; /* of the stages before */
+  int32_t n_stages;        /* before */
   double last_damping;     /* in the last factorisation */
   double value;            /* at x */
   bool is_out_of_time;
 } course;
 
 /* ---- stages ------------------------------------------------------------------------------------------------------ */
-
-static bool is_quadratic(const fs_functional *functional) {
-  if (!functional->is_linear) return false;
-  for (int32_t t = 0; t < functional->n_terms; t++)
-    if (!functional->term[t]->is_quadratic) return false;
-  return true;
-}
-
-/* Below the last value whose minimum is unique steps are many and bring little: polishing goes this much further down, and the
-   last two stages end when a step promises less than this; between, a stage that ends early leaves more to the next than it
-   spares. */
-#define UNIQUE 0.99e-4
-#define POLISH_FACTOR 1e-2
-#define POLISH_TOLERANCE 1e-4
-#define BETWEEN_TOLERANCE 1e-5
-
-static int32_t plan_stages(const fs_setup *s, const fs_fair_options *options, stage *stages) {
-  int32_t n = 0;
-  double last = s->param[0], first = s->functional->is_continued && last < 1e-2 ? 1e-2 : last;
-  if (is_quadratic(s->functional)) {
-    stages[n++] = (stage){last, 0, 1e-12, true, false};
-    return n;
-  }
-  stages[n++] = (stage){first, 1, first == last ? 1e-2 : 1e-3, false, false};
-  for (double C = first / 10; C > 1.0001 * last && n < MAX_STAGES - 4; C /= 10)
-    stages[n++] = (stage){C, 1, C < UNIQUE ? BETWEEN_TOLERANCE : 1e-3, false, C < UNIQUE};
-  if (first != last) stages[n++] = (stage){last, 1, last < UNIQUE ? POLISH_TOLERANCE : 1e-3, false, last < UNIQUE};
-  stages[n++] = (stage){last, 0, options->polish ? POLISH_TOLERANCE : 1e-12, true, true};
-  for (int32_t i = 0; i < n; i++) stages[i].tolerance = fmax(stages[i].tolerance, options->decrease_tolerance);
-  return n;
-}
 
 static double seconds_since(const struct timespec *start) {
   struct timespec now;
@@ -86,6 +56,7 @@ static bool record(void *user, const fs_minimise_step *m) {
   course *c = user;
   const fs_fair_options *options = c->options;
   fs_step step = {.number = m->number + c->n_earlier_steps,
+                  .stage = c->n_stages,
                   .value = m->value,
                   .gradient = m->gradient,
                   .damping = m->damping,
@@ -98,12 +69,45 @@ static bool record(void *user, const fs_minimise_step *m) {
   c->last_damping = m->damping;
   if (c->report->n_trace < FS_MAX_TRACE) c->report->trace[c->report->n_trace++] = step;
   if (options->iterate != NULL) {
-    fs_setup_place(&c->setup, c->x);
+    fs_setup_place(&c->setup, c->depth > 0 ? c->y : c->x);
     if (!options->iterate(options->monitor_user, &step, c->setup.problem->c)) return false;
   }
   if (options->monitor != NULL && !options->monitor(options->monitor_user, &step)) return false;
   c->is_out_of_time = options->max_seconds > 0 && step.seconds >= options->max_seconds;
   return !c->is_out_of_time;
+}
+
+/* Back to depth 0. */
+static void leave_depth(course *c) {
+  fs_solver_free(c->ctx, c->solver);
+  c->solver = NULL;
+  fs_release(c->ctx, c->y);
+  c->y = NULL;
+  if (c->depth == 0) return;
+  fs_setup_reduce(&c->setup, NULL);
+  c->depth = 0;
+}
+
+/* The unknowns become displacements of the mesh so many refinements before, from x on. */
+static fs_status enter_depth(course *c, int32_t depth) {
+  fs_status status = FS_OK;
+  fs_reduction *reduction;
+  if (c->solver != NULL && c->depth == depth) return FS_OK;
+  leave_depth(c);
+  c->damping.is_factored = false;
+  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = fmin(c->damping.nu, FINER_DAMPING)};
+  if (depth > 0) {
+    reduction = c->coarse[depth - 1];
+    c->coarse[depth - 1] = NULL;
+    c->depth = depth;
+    memcpy(reduction->x0, c->x, 3 * (size_t)reduction->n_rows * sizeof *c->x);
+    FS_TRY(fs_setup_reduce(&c->setup, reduction));
+    FS_TRY(fs_problem_reduce(c->setup.problem, reduction));
+    FS_ALLOC(c->ctx, c->y, 3 * (size_t)reduction->n_columns);
+  }
+  FS_TRY(fs_solver_create(c->ctx, fs_setup_pattern(&c->setup), &c->solver));
+done:
+  return status;
 }
 
 /* A stiffness of the wall at which going as far again beyond it everywhere would cost many times the functional. */
@@ -121,7 +125,7 @@ static fs_status stiffen_wall(course *c, const fs_objective *objective) {
   return FS_OK;
 }
 
-static fs_status minimise(course *c, const stage *stage, const fs_objective *objective, bool *is_over) {
+static fs_status minimise(course *c, const fs_stage *stage, const fs_objective *objective, bool *is_over) {
   fs_status status = FS_OK;
   const fs_fair_options *options = c->options;
   int32_t max_iterations = options->max_iterations;
@@ -140,7 +144,7 @@ static fs_status minimise(course *c, const stage *stage, const fs_objective *obj
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
     o.gradient_start = c->gradient_start;
   }
-  FS_TRY(fs_minimise(c->ctx, objective, &o, c->x, &m));
+  FS_TRY(fs_minimise(c->ctx, objective, &o, c->depth > 0 ? c->y : c->x, &m));
   c->value = m.value;
   c->n_earlier_steps += m.n_steps;
   c->report->n_steps += m.n_steps;
@@ -167,13 +171,15 @@ done:
   return status;
 }
 
-static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
+static fs_status run_stage(course *c, const fs_stage *stage, bool *is_over) {
   fs_status status = FS_OK;
-  fs_objective objective = fs_setup_objective(&c->setup, c->solver);
+  fs_objective objective;
   bool has_moved = true;
   c->setup.n_cheap_hessians = stage->is_last && stage->level == 0;
   c->setup.param[0] = stage->C;
   FS_TRY(fs_problem_set_level(c->setup.problem, stage->level));
+  FS_TRY(enter_depth(c, stage->depth));
+  objective = fs_setup_objective(&c->setup, c->solver);
   if (c->setup.wall != NULL && c->n_rounds == 0) FS_TRY(stiffen_wall(c, &objective));
   for (int32_t round = 0; has_moved && !*is_over; round++) {
     FS_TRY(minimise(c, stage, &objective, is_over));
@@ -183,9 +189,11 @@ static fs_status run_stage(course *c, const stage *stage, bool *is_over) {
       break;
     FS_TRY(leave_saddle(c, &objective, stage->tolerance, &has_moved));
   }
-  fs_setup_place(&c->setup, c->x);
+  fs_setup_place(&c->setup, c->depth > 0 ? c->y : c->x);
   if (c->setup.wall != NULL) FS_TRY(fs_wall_learn(c->setup.wall, &c->excess));
 done:
+  c->n_stages++;
+  if (c->y != NULL) fs_reduction_apply(c->setup.reduction, c->y, c->x);
   if (status == FS_ERR_CANCELLED) { /* c->x is the best point met */
     c->report->stop = FS_STOP_CANCELLED;
     *is_over = true;
@@ -196,7 +204,7 @@ done:
 
 /* Repeats the last stage until the forces hold the surface at the wall; what then still is beyond the tolerance goes back
    towards the start. */
-static fs_status press_to_wall(course *c, const stage *last, bool is_over) {
+static fs_status press_to_wall(course *c, const fs_stage *last, bool is_over) {
   fs_status status = FS_OK;
   fs_wall *wall = c->setup.wall;
   double tolerance = c->options->constraints->tolerance, distance, before;
@@ -218,14 +226,15 @@ done:
 
 static fs_status run_stages(course *c) {
   fs_status status = FS_OK;
-  stage stages[MAX_STAGES];
+  fs_stage stages[FS_MAX_STAGES];
   double last = c->setup.param[0];
-  int32_t n = plan_stages(&c->setup, c->options, stages);
+  int32_t n = fs_stages_plan(&c->setup, c->options, c->n_coarse, stages);
   bool is_over = false;
-  c->damping = (fs_damping){.nu = is_quadratic(c->setup.functional) ? 0 : 1};
+  c->damping = (fs_damping){.nu = fs_is_quadratic(c->setup.functional) ? 0 : 1};
   for (int32_t i = 0; i < n && !is_over; i++) FS_TRY(run_stage(c, &stages[i], &is_over));
   if (c->setup.wall != NULL) FS_TRY(press_to_wall(c, &stages[n - 1], is_over));
 done:
+  if (c->depth > 0) leave_depth(c); /* stopped there */
   c->setup.param[0] = last;
   return status;
 }
@@ -256,13 +265,14 @@ static fs_status begin_triharmonic(course *c, const fs_space *space) {
                              .n_nodes_square = c->options->n_nodes_square,
                              .n_nodes_cap = c->options->n_nodes_cap,
                              .max_iterations = 4};
-  course linear = {.ctx = c->ctx, .options = &options, .report = &unused, .solver = c->solver, .x = c->x, .g = c->g};
+  course linear = {.ctx = c->ctx, .options = &options, .report = &unused, .x = c->x, .g = c->g};
   FS_TRY(
       fs_setup_create(c->ctx, space, &options, fs_functional_find("triharmonic"), c->setup.problem->c, &linear.setup));
   fs_setup_share(&linear.setup, &c->setup);
   FS_TRY(run_stages(&linear));
   fs_setup_place(&c->setup, c->x);
 done:
+  leave_depth(&linear);
   fs_setup_share(&linear.setup, NULL);
   fs_setup_free(c->ctx, &linear.setup);
   return status;
@@ -287,7 +297,6 @@ static fs_status run_course(course *c, const fs_space *space) {
   bool is_scale_free = c->setup.functional->is_scale_free;
   double size = 0, size_now = 0;
   fs_energy begin = c->report->start;
-  FS_TRY(fs_solver_create(c->ctx, fs_setup_pattern(&c->setup), &c->solver));
   if (is_scale_free) FS_TRY(fs_setup_size(&c->setup, &size)); /* of the start as it was given */
   fs_setup_place(&c->setup, c->x);
   if (constraints != NULL && constraints->tolerance != 0) FS_TRY(begin_near(c));
@@ -295,6 +304,9 @@ static fs_status run_course(course *c, const fs_space *space) {
   if (c->options->start_triharmonic || c->setup.reduction != NULL) FS_TRY(fs_setup_measure(&c->setup, c->g, &begin));
   FS_TRY(check_start(c->ctx, &c->setup, &begin));
   c->gradient_start = begin.gradient;
+  if (c->options->mesh != NULL && c->setup.reduction == NULL && c->setup.wall == NULL && p->n_free >= LEAST_FREE)
+    FS_TRY(fs_coarse_create(c->ctx, p, c->options->mesh, LEAST_COARSE, c->coarse, &c->n_coarse));
+  c->report->n_coarse = c->n_coarse;
   FS_TRY(run_stages(c));
   FS_TRY(fs_problem_set_level(p, 0));
   fs_setup_place(&c->setup, c->x);
@@ -304,7 +316,7 @@ static fs_status run_course(course *c, const fs_space *space) {
   c->report->kept = is_scale_free ? size_now / size - 1 : 0;
   FS_TRY(fs_setup_measure(&c->setup, c->g, &c->report->end));
 done:
-  fs_solver_free(c->ctx, c->solver);
+  leave_depth(c);
   return status;
 }
 
@@ -343,7 +355,7 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
                      c.setup.functional->name);
     goto done;
   }
-  if (options->polish) c.setup.param[0] *= POLISH_FACTOR;
+  if (options->polish) c.setup.param[0] *= FS_POLISH_FACTOR;
   r.functional = c.setup.functional;
   r.n_free = c.setup.problem->n_free;
   r.n_free_inner = count_free_inner(c.setup.problem);
@@ -367,6 +379,7 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
   r.c = fs_setup_c(&c.setup);
   if (report != NULL) *report = r;
 done:
+  for (int32_t i = 0; i < c.n_coarse; i++) fs_reduction_free(ctx, c.coarse[i]);
   fs_release(ctx, c.x);
   fs_release(ctx, c.g);
   fs_release(ctx, c.begin);

@@ -11,6 +11,7 @@
   void fs_hessian##suffix(int32_t, const double *, const double *, double *);                                         \
   void fs_hessian_tensor##suffix(fs_tensor *, int32_t, const double *);                                               \
   void fs_hessian_tensor_finish##suffix(fs_tensor *, double *);                                                       \
+  void fs_congruence##suffix(int32_t, int32_t, int32_t, const double *, double *, double *, double *);                \
   void fs_add_scaled##suffix(int32_t, const double *, const double *, bool, double *);                                \
   void fs_to_chart##suffix(const double *, const double *, double *);                                                 \
   void fs_add_from_chart##suffix(const double *, const double *, const double *, const double *, double *, double *); \
@@ -23,6 +24,7 @@
                                              .hessian = fs_hessian##suffix,                                           \
                                              .hessian_tensor = fs_hessian_tensor##suffix,                             \
                                              .hessian_tensor_finish = fs_hessian_tensor_finish##suffix,               \
+                                             .congruence = fs_congruence##suffix,                                     \
                                              .add_scaled = fs_add_scaled##suffix,                                     \
                                              .to_chart = fs_to_chart##suffix,                                         \
                                              .add_from_chart = fs_add_from_chart##suffix};

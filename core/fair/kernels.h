@@ -14,13 +14,16 @@
                Where a == b only the part on and above the diagonal is meaningful
      hessian_tensor, hessian_tensor_finish
                the same for bicubic elements, block by block in order, then h[6][16][16] = the result
+     congruence  out[6][n][n] = T^T h T for the six pairs of components, h[6][m_padded][m_padded] as hessian leaves it (both
+               parts of the result are there), T[m][n], n a multiple of 8, work[m_padded][n]
      add_scaled  to[n][block] (+)= scale[block] * from[n][block]; the first time it is stored, not added
      to_chart  z[9][3][block] = derivatives by the coordinates of the chart
      add_from_chart  sum_df, sum_ddf += scale[block] * df, ddf by the chart, turned into derivatives by (u, v); ddf NULL: none */
-/* Work space of one element, zero before the first block. */
+/* Work space of one element; used is zero before the first block. */
 typedef struct fs_tensor {
   int32_t n_nodes;
   const double *product; /* [4][4][n_nodes][4][4], as in fs_basis_table */
+  uint32_t used;         /* bit g: part g of row holds something */
   double row[16 * 9 * 16], sum[9 * 16 * 16];
 } fs_tensor;
 
@@ -33,6 +36,7 @@ typedef struct fs_kernels {
   void (*hessian)(int32_t m_padded, const double *by_point, const double *ddf, double *h);
   void (*hessian_tensor)(fs_tensor *tensor, int32_t block, const double *ddf);
   void (*hessian_tensor_finish)(fs_tensor *tensor, double *h);
+  void (*congruence)(int32_t m, int32_t m_padded, int32_t n, const double *T, double *h, double *work, double *out);
   void (*add_scaled)(int32_t n, const double *scale, const double *from, bool is_first, double *to);
   void (*to_chart)(const double *inverse, const double *y, double *z);
   void (*add_from_chart)(const double *inverse, const double *scale, const double *df, const double *ddf,

@@ -58,6 +58,7 @@ static fs_status make_buffers(fs_context *ctx, fs_problem *p) {
   int32_t n_workers = fs_n_workers(ctx);
   for (int32_t i = 0; i < p->space->n_extractions; i++)
     if ((size_t)p->table[i]->n_padded > largest) largest = (size_t)p->table[i]->n_padded;
+  p->n_largest = p->n_listed = largest;
   size_t bytes = (6 * largest + 3) * largest * sizeof(double);
   p->n_batch = (int32_t)(BATCH_BYTES / bytes);
   if (p->n_batch < 1) p->n_batch = 1;
@@ -67,8 +68,11 @@ static fs_status make_buffers(fs_context *ctx, fs_problem *p) {
   for (int32_t i = 0; i < p->n_batch; i++) {
     FS_ALLOC(ctx, p->result[i].gradient, 3 * largest);
     FS_ALLOC(ctx, p->result[i].hessian, 6 * largest * largest);
+    FS_ALLOC(ctx, p->result[i].list, largest);
+    FS_ALLOC(ctx, p->result[i].place, largest);
   }
   FS_ALLOC(ctx, p->scratch, n_workers);
+  FS_ALLOC(ctx, p->work, n_workers);
   for (int32_t i = 0; i < n_workers; i++) {
     p->scratch[i] = fs_allocate(ctx, 1, fs_assemble_scratch_size());
     if (p->scratch[i] == NULL) {
@@ -80,11 +84,71 @@ done:
   return status;
 }
 
+/* The most unknowns of the reduction that an element depends on, padded. */
+static fs_status count_reduced(const fs_problem *p, const fs_reduction *r, size_t *most) {
+  fs_status status = FS_OK;
+  int32_t *mark = NULL;
+  *most = 0;
+  FS_ALLOC(p->ctx, mark, r->n_columns);
+  for (int32_t i = 0; i < p->space->n_elements; i++) {
+    const fs_element *e = &p->space->element[i];
+    size_t n = 0;
+    for (int32_t d = 0; d < p->space->extraction[e->extraction].n_dofs; d++) {
+      int32_t unknown = p->unknown[p->space->dof[e->dof_start + d]];
+      if (unknown == FS_NONE) continue;
+      for (int32_t k = r->row_start[unknown]; k < r->row_start[unknown + 1]; k++) {
+        n += mark[r->column[k]] != i + 1;
+        mark[r->column[k]] = i + 1;
+      }
+    }
+    if (n > *most) *most = n;
+  }
+  *most = (*most + 7) / 8 * 8;
+done:
+  fs_release(p->ctx, mark);
+  return status;
+}
+
+static void free_reduced(fs_problem *p) {
+  for (int32_t i = 0; p->result != NULL && i < p->n_batch; i++) {
+    fs_release(p->ctx, p->result[i].reduced);
+    p->result[i].reduced = NULL;
+  }
+  for (int32_t i = 0; p->work != NULL && i < fs_n_workers(p->ctx); i++) {
+    fs_release(p->ctx, p->work[i]);
+    p->work[i] = NULL;
+  }
+}
+
+fs_status fs_problem_reduce(fs_problem *p, const fs_reduction *reduction) {
+  fs_status status = FS_OK;
+  size_t n;
+  p->reduction = NULL;
+  free_reduced(p);
+  if (reduction == NULL) return FS_OK;
+  FS_TRY(count_reduced(p, reduction, &n));
+  for (int32_t i = 0; i < p->n_batch; i++) {
+    FS_ALLOC(p->ctx, p->result[i].reduced, 6 * n * n);
+    if (n <= p->n_listed) continue;
+    fs_release(p->ctx, p->result[i].list);
+    fs_release(p->ctx, p->result[i].place);
+    p->result[i].list = p->result[i].place = NULL;
+    FS_ALLOC(p->ctx, p->result[i].list, n);
+    FS_ALLOC(p->ctx, p->result[i].place, n);
+  }
+  if (n > p->n_listed) p->n_listed = n;
+  for (int32_t i = 0; i < fs_n_workers(p->ctx); i++) FS_ALLOC(p->ctx, p->work[i], 2 * p->n_largest * n);
+  p->reduction = reduction;
+done:
+  return status;
+}
+
 /* Far from the end fewer nodes do; extra dofs of caps would exploit a rule that is too coarse. */
 static int32_t nodes_of(const fs_problem *p, const fs_extraction *x, int32_t level) {
   int32_t n = x->valence == 4 ? p->n_nodes_square : p->n_nodes_cap;
-  int32_t few = x->valence == 4 ? 4 : x->n_dofs > 6 * x->valence + 1 ? 10 : 8;
-  return level == 1 && few < n ? few : n;
+  if (level == 0) return n;
+  int32_t few = x->valence == 4 ? (level == 1 ? 4 : 2) : 10;
+  return few < n ? few : n;
 }
 
 fs_status fs_problem_set_level(fs_problem *p, int32_t level) {
@@ -137,18 +201,22 @@ done:
 
 void fs_problem_free(fs_context *ctx, fs_problem *p) {
   if (p == NULL) return;
-  for (int level = 0; level < 2; level++) {
+  for (int level = 0; level < 3; level++) {
     for (int32_t i = 0; p->tables[level] != NULL && i < p->space->n_extractions; i++)
       fs_basis_free(ctx, p->tables[level][i]);
     fs_release(ctx, p->tables[level]);
   }
+  free_reduced(p);
   for (int32_t i = 0; p->result != NULL && i < p->n_batch; i++) {
     fs_release(ctx, p->result[i].gradient);
     fs_release(ctx, p->result[i].hessian);
+    fs_release(ctx, p->result[i].list);
+    fs_release(ctx, p->result[i].place);
   }
   for (int32_t i = 0; p->scratch != NULL && i < fs_n_workers(ctx); i++) fs_release(ctx, p->scratch[i]);
   fs_release(ctx, p->result);
   fs_release(ctx, p->scratch);
+  fs_release(ctx, p->work);
   fs_release(ctx, p->unknown);
   fs_release(ctx, p->c);
   fs_sparse_free(ctx, p->pattern);

@@ -90,6 +90,7 @@ fs_status fs_setup_reduce(fs_setup *s, fs_reduction *reduction) {
   fs_sparse_free(ctx, s->reduced);
   s->reduction = reduction;
   s->reduced = NULL;
+  FS_TRY(fs_problem_reduce(s->problem, NULL));
   if (reduction == NULL) return FS_OK;
   if (s->x == NULL) FS_ALLOC(ctx, s->x, 3 * (size_t)s->problem->n_free);
   if (s->g == NULL) FS_ALLOC(ctx, s->g, 3 * (size_t)s->problem->n_free);
@@ -190,6 +191,7 @@ static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, dou
   fs_status status = FS_OK;
   double integral[FS_MAX_TERMS + 2];
   bool is_reduced = s->reduction != NULL, is_cheap = order == FS_HESSIAN && s->n_cheap_hessians > 0;
+  bool is_after = is_reduced && s->problem->reduction == NULL; /* else elements are reduced one by one */
   int32_t level = s->problem->level;
   double *full_g = g;
   fs_sparse *full_hessian = hessian;
@@ -199,11 +201,12 @@ static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, dou
     FS_TRY(fs_problem_set_level(s->problem, 1));
   }
   FS_TRY(fs_progress(s->problem->ctx, "fairing", 0));
-  if (is_reduced) full_g = s->g, full_hessian = s->problem->pattern;
+  if (is_reduced) full_g = s->g;
+  if (is_after) full_hessian = s->problem->pattern;
   FS_TRY(evaluate(s, order, integral, NULL, f, full_g, full_hessian));
   if (s->wall != NULL) FS_TRY(fs_wall_add(s->wall, order, f, full_g, full_hessian));
   if (is_reduced && order >= FS_GRADIENT) fs_reduction_gather(s->reduction, s->g, g);
-  if (is_reduced && order >= FS_HESSIAN)
+  if (is_after && order >= FS_HESSIAN)
     FS_TRY(fs_reduction_hessian(s->problem->ctx, s->reduction, s->problem->pattern, hessian));
 done:
   if (is_cheap && s->problem->tables[level] != NULL) s->problem->table = s->problem->tables[s->problem->level = level];

@@ -21,9 +21,11 @@
 #include <math.h>
 #include <string.h>
 
+enum { MAX_SHORTENED = 3 };
 enum { MAX_TRIALS = 60 }; /* factorisations for one step: nu has grown beyond any use by then */
-static const double worth_going_on =
-    0.5; /* of a quasi-Newton step: its predicted decrease by that of the step before */
+/* Of a quasi-Newton step: its predicted decrease by that of the step before; with a factorisation from before the start, which
+   belongs to another function, and with one of our own. */
+static const double worth_going_on_old = 0.1, worth_going_on = 0.5;
 
 typedef struct state {
   int32_t n;
@@ -201,13 +203,30 @@ done:
   return status;
 }
 
+/* Shorter steps in the direction of a rejected one: a gradient each, where another damping would cost a factorisation.
+   The model along the direction d with K d = -g, K = H + nu D:  -a t + (a - nu d.D d) t^2 / 2,  a = -g.d > 0. */
+static fs_status shorten_step(const fs_objective *o, state *t, double *predicted, double *gain, double *length) {
+  fs_status status = FS_OK;
+  size_t n = 3 * (size_t)t->n;
+  double a = -dot(t->g, t->s, n), curvature = a - t->nu * weighted_square(t), shorter = 1;
+  for (int i = 0; i < MAX_SHORTENED && !(*gain > 0.1) && *predicted > rounding * fabs(t->f); i++) {
+    for (size_t k = 0; k < n; k++) t->s[k] *= 0.3;
+    shorter *= 0.3;
+    *predicted = a * shorter - 0.5 * curvature * shorter * shorter;
+    FS_TRY(try_step(o, t, *predicted, gain));
+  }
+  *length = shorter;
+done:
+  return status;
+}
+
 /* Takes steps of growing damping from x until one is accepted. *is_stuck: none is, down to rounding. */
 static fs_status newton_step(fs_context *ctx, const fs_objective *o, state *t, fs_minimise_report *report,
                              bool *is_taken, bool *is_stuck) {
   fs_status status = FS_OK;
   size_t n = 3 * (size_t)t->n;
   int32_t n_factorisations = 0;
-  double gain, predicted, f_unused;
+  double gain, predicted, shortened, f_unused;
   *is_taken = *is_stuck = false;
   FS_TRY(o->hessian(o->self, t->x, &f_unused, t->s, &t->hessian));
   report->n_hessians++;
@@ -218,6 +237,8 @@ static fs_status newton_step(fs_context *ctx, const fs_objective *o, state *t, f
     t->nu_factored = t->nu;
     predicted = -0.5 * dot(t->g, t->s, n) + 0.5 * t->nu * weighted_square(t);
     FS_TRY(try_step(o, t, predicted, &gain));
+    shortened = 1;
+    if (!(gain > 1e-4)) FS_TRY(shorten_step(o, t, &predicted, &gain, &shortened));
     if (gain > 1e-4) break;
     if (predicted <= rounding * fabs(t->f) || n_factorisations >= MAX_TRIALS) {
       *is_stuck = true;
@@ -225,7 +246,7 @@ static fs_status newton_step(fs_context *ctx, const fs_objective *o, state *t, f
     }
     raise_damping(t);
   }
-  lower_damping(t, gain);
+  lower_damping(t, shortened < 1 ? 0 : gain);
   FS_TRY(accept(ctx, t, report, gain, n_factorisations, predicted));
   *is_taken = true;
 done:
@@ -245,7 +266,10 @@ static fs_status quasi_newton_step(fs_context *ctx, const fs_objective *o, state
   fs_memory_after(&t->memory, t->s, alpha);
   for (size_t i = 0; i < n; i++) t->s[i] = -t->s[i];
   predicted = -0.5 * dot(t->g, t->s, n);
-  if (!(predicted > 0 && (predicted <= worth_going_on * t->predicted || predicted <= rounding * fabs(t->f)))) goto done;
+  if (!(predicted > 0 &&
+        ((predicted <= (report->n_hessians == 0 ? worth_going_on_old : worth_going_on) * t->predicted) ||
+         predicted <= rounding * fabs(t->f))))
+    goto done;
   FS_TRY(try_step(o, t, predicted, &gain));
   *is_stuck = gain <= 0.1 && predicted <= rounding * fabs(t->f);
   if (!(gain > 0.1)) goto done;

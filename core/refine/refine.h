@@ -44,4 +44,11 @@ fs_status fs_mesh_split_stencils(fs_context *ctx, const fs_mesh *mesh, const fs_
 fs_status fs_refinement_assemble(fs_context *ctx, const fs_mesh *coarse, fs_mesh **fine, fs_stencils *stencils,
                                  fs_refinement **refinement);
 
+/* The mesh of which this one may be a refinement, going by the connectivity alone, and the rows of three averagings; its
+   vertices keep their positions in the fine mesh, where vertex i is origin[i]. *coarse is NULL, and nothing else is set,
+   where there is none. Rows are empty for fine vertices at the rim; near it they leave out old vertices that are no longer
+   there, so that they sum to less than 1. The caller frees all three. */
+fs_status fs_mesh_coarsen(fs_context *ctx, const fs_mesh *fine, fs_mesh **coarse, fs_stencils *stencils,
+                          int32_t **origin);
+
 #endif

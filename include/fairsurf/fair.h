@@ -76,12 +76,13 @@ FS_API const char *fs_stop_text(fs_stop stop); /* "gradient", "step", "decrease"
 
 /* One accepted step of the minimisation. */
 typedef struct fs_step {
-  int32_t number;           /* from 1; 0 is the start */
-  double value;             /* of the functional, after the step */
-  double gradient;          /* Euclidean norm of its gradient there */
-  double damping;           /* relative to the diagonal of the Hessian; 0 for a Newton step */
-  double length;            /* Euclidean norm of the step */
-  double gain;              /* actual decrease / predicted decrease */
+  int32_t number;  /* from 1; 0 is the start */
+  int32_t stage;   /* from 0: in each the functional, or its quadrature, is another one; values fall within a stage */
+  double value;    /* of the functional, after the step */
+  double gradient; /* Euclidean norm of its gradient there */
+  double damping;  /* relative to the diagonal of the Hessian; 0 for a Newton step */
+  double length;   /* Euclidean norm of the step */
+  double gain;     /* actual decrease / predicted decrease */
   int32_t n_factorisations; /* needed for this step */
   double seconds;           /* since the start */
   double c;                 /* weight of Q in the value */
@@ -139,9 +140,11 @@ typedef struct fs_constraints {
 } fs_constraints;
 
 typedef struct fs_fair_options {
-  const fs_functional *functional;     /* NULL: the first of the table */
-  const double *param;                 /* NULL: initial values of its params */
-  const bool *fixed;                   /* [n_dofs], at least the rim where there is one; NULL: nothing is fixed */
+  const fs_functional *functional; /* NULL: the first of the table */
+  const double *param;             /* NULL: initial values of its params */
+  const fs_mesh *mesh; /* the mesh of the space: large ones that are refinements are minimised from coarse to
+                                          fine displacements; NULL: at once */
+  const bool *fixed;   /* [n_dofs], at least the rim where there is one; NULL: nothing is fixed */
   const fs_constraints *constraints;   /* NULL: none */
   int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction; 0: 8 on squares, 12 in caps; at most 32 */
   double max_seconds;                  /* 0: no limit */
@@ -164,6 +167,7 @@ typedef struct fs_fair_report {
   int32_t n_free, n_squares, n_caps; /* free dofs (a dof is a point), elements, special vertices */
   int32_t n_free_inner;              /* those of n_free that are inner coefficients of caps */
   int32_t n_unknowns;                /* points that remain to be chosen when constraints are met; n_free without any */
+  int32_t n_coarse;                  /* meshes of which this one is a refinement, whose displacements came first */
   int32_t n_steps, n_hessians, n_factorisations;
   int32_t n_saddles; /* stationary points that were no minima, and were left */
   double distance;   /* with a tolerance: the largest distance from the target that was measured at the end */
