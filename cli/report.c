@@ -28,12 +28,13 @@ static void put_number(FILE *file, const char *name, double value, const char *s
     fprintf(file, "\"%s\": null%s", name, separator);
 }
 
-static void put_energy(FILE *file, const char *name, const fs_energy *e) {
+static void put_energy(FILE *file, const char *name, const fs_energy *e, double c) {
   fprintf(file, "  \"%s\": {", name);
   put_number(file, "F", e->F, ", ");
   put_number(file, "S", e->S, ", ");
   put_number(file, "S_caps", e->S_caps, ", ");
   put_number(file, "Q", e->Q, ", ");
+  put_number(file, "cQ", c * e->Q, ", ");
   put_number(file, "gradient", e->gradient, "},\n");
 }
 
@@ -63,8 +64,15 @@ static void put_report(FILE *file, const arguments *a, const fs_fair_report *r, 
     fprintf(file, "  ");
     put_number(file, "distance", r->distance, ",\n");
   }
-  put_energy(file, "start", &r->start);
-  put_energy(file, "end", &r->end);
+  put_energy(file, "start", &r->start, r->c);
+  put_energy(file, "end", &r->end, r->c);
+  fprintf(file, "  \"quality\": {\"nodes_square\": %d, \"nodes_cap\": %d, ", r->quality.n_nodes_square,
+          r->quality.n_nodes_cap);
+  put_number(file, "S", r->quality.S, ", ");
+  put_number(file, "S_caps", r->quality.S_caps, ", ");
+  put_number(file, "area", r->quality.area, ", ");
+  put_number(file, "least_density", r->quality.least_density, ", ");
+  fprintf(file, "\"face\": %d},\n", r->quality.face);
   fprintf(file,
           "  \"steps\": %d,\n  \"hessians\": %d,\n  \"factorisations\": %d,\n  \"saddles\": %d,\n  \"stop\": \"%s\",\n",
           r->n_steps, r->n_hessians, r->n_factorisations, r->n_saddles, fs_stop_text(r->stop));
@@ -135,6 +143,10 @@ void print_report(FILE *file, const arguments *a, const fs_fair_report *r, const
   if (r->n_unknowns != r->n_free) fprintf(file, "%d unknown points under the constraints\n", r->n_unknowns);
   print_energy(file, "start", &r->start);
   print_energy(file, "end", &r->end);
+  fprintf(file,
+          "cQ %.6g; S %.10g with %d nodes on squares and %d in caps; least |p_u x p_v| %.3g of its mean, on face %d\n",
+          r->c * r->end.Q, r->quality.S, r->quality.n_nodes_square, r->quality.n_nodes_cap, r->quality.least_density,
+          r->quality.face);
   if (a->constraints.stay_within > 0)
     fprintf(file, "largest distance from %s: %.6g of %.6g\n",
             a->constraints.stay_near != NULL ? a->constraints.stay_near : "the start", r->distance,

@@ -11,6 +11,9 @@ print(f"{'':8}{'F':>16}{'S':>16}{'S of caps':>16}{'Q':>16}{'gradient':>12}")
 for when in ("start", "end"):
     e = report[when]
     print(f"{when:8}{e['F']:16.9g}{e['S']:16.9g}{e['S_caps']:16.9g}{e['Q']:16.9g}{e['gradient']:12.3g}")
+quality = report["quality"]
+print(f"S {quality['S']:.9g} with {quality['nodes_square']} nodes on squares and {quality['nodes_cap']} in caps; "
+      f"least |p_u x p_v| {quality['least_density']:.3g} of its mean")
 print(f"{report['steps']} steps, {report['hessians']} Hessians, {report['factorisations']} factorisations; "
       f"stopped by: {report['stop']}")
 seconds = ", ".join(f"{name} {value:.2f}" for name, value in report["seconds"].items())

@@ -370,13 +370,13 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
   r.stop = options->max_iterations < 0 ? FS_STOP_ITERATIONS : FS_STOP_GRADIENT;
   if (r.n_unknowns > 0 && options->max_iterations >= 0) {
     FS_TRY(run_course(&c, space));
-    memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
   } else if (c.setup.reduction != NULL && options->max_iterations >= 0) {
     fs_setup_place(&c.setup, c.x);
     FS_TRY(fs_setup_measure(&c.setup, c.g, &r.end));
-    memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
   }
   r.c = fs_setup_c(&c.setup);
+  FS_TRY(fs_fair_quality(ctx, space, c.setup.problem->c, 0, 0, &r.quality));
+  memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
   if (report != NULL) *report = r;
 done:
   for (int32_t i = 0; i < c.n_coarse; i++) fs_reduction_free(ctx, c.coarse[i]);

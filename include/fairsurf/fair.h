@@ -97,6 +97,16 @@ typedef struct fs_energy {
   double gradient;     /* Euclidean norm of the gradient of F by the free dofs */
 } fs_energy;
 
+/* How far these numbers can be trusted, and how even the parametrisation is. */
+typedef struct fs_quality {
+  int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction of this measurement */
+  double S, S_caps;                    /* the curvature variation by them */
+  double area;
+  double
+      least_density; /* least |p_u x p_v| by its mean over the surface: near 0 where the surface folds over or pinches */
+  int32_t face;      /* where that is */
+} fs_quality;
+
 /* ---- constraints: what the surface must keep besides its fixed dofs [docs/constraints.md] ---- */
 
 /* A point of the surface that is held: its place, its tangent plane, or both. */
@@ -174,6 +184,7 @@ typedef struct fs_fair_report {
   double kept; /* where nothing is fixed: the area or the volume at the end, divided by that at the start, minus 1 */
   double c;    /* weight of Q in F; 0 where the functional has no such term */
   fs_energy start, end;
+  fs_quality quality; /* of the result, by 12 nodes on squares and 24 in caps */
   int32_t n_trace;
   fs_step trace[FS_MAX_TRACE]; /* the start and the first accepted steps */
 } fs_fair_report;
@@ -189,6 +200,10 @@ FS_API fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_o
 /* The energies of the surface with dofs c; F and gradient by options as fs_fair has them. */
 FS_API fs_status fs_fair_energy(fs_context *ctx, const fs_space *space, const fs_fair_options *options,
                                 const fs_vec3 *c, fs_energy *energy);
+
+/* Measures the surface with dofs c by a quadrature of its own; 0 nodes: 12 on squares, 24 in caps; at most 32. */
+FS_API fs_status fs_fair_quality(fs_context *ctx, const fs_space *space, const fs_vec3 *c, int32_t n_nodes_square,
+                                 int32_t n_nodes_cap, fs_quality *quality);
 
 /* Name of the BLAS library that the solver runs on, for example a path; and whether it is the slow reference one. */
 FS_API const char *fs_blas_name(bool *is_reference);

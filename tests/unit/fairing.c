@@ -337,6 +337,13 @@ static void test_course(void **state) {
   for (int32_t v = 0; v < space->n_dofs; v++)
     if (fixed[v]) assert_memory_equal(&c[v], &start[v], sizeof *c);
 
+  /* the report ends with a finer measurement */
+  fs_quality quality;
+  assert_int_equal(fs_fair_quality(&ctx, space, c, 12, 24, &quality), FS_OK);
+  assert_true(quality.S == full.quality.S && quality.least_density == full.quality.least_density);
+  assert_true(fabs(quality.S - full.end.S) <= 1e-9 * full.end.S && quality.least_density > 0.1);
+  assert_int_equal(fs_fair_quality(&ctx, space, c, 33, 0, &quality), FS_ERR_ARGUMENT);
+
   /* the energy function agrees with the report */
   assert_int_equal(fs_fair_energy(&ctx, space, &options, c, &energy), FS_OK);
   assert_true(energy.F == full.end.F && energy.S == full.end.S && energy.Q == full.end.Q);
@@ -433,14 +440,14 @@ static double monomial_coefficient(int power, int k) {
 
 static void test_graph_patches(void **state) {
   static const struct {
-    double weight[4][4], S; /* z = sum of weight[i][j] x^i y^j */
+    double weight[4][4], S, area; /* z = sum of weight[i][j] x^i y^j */
   } graph[] = {
-      {{[1] = {[1] = 1}}, 0.05818831883894},
-      {{[0] = {[2] = 0.5}, [2] = {[0] = 0.5}}, 0.2075662456293},
-      {{[0] = {[2] = -0.5}, [2] = {[0] = 0.5}}, 0.06765808515898},
-      {{[3] = {[0] = 1}}, 3.091739546388},
-      {{[2] = {[1] = 1}}, 0.8794643847793},
-      {{[3] = {[3] = 1}}, 2.945106176589},
+      {{[1] = {[1] = 1}}, 0.05818831883894, 1.280789275273},
+      {{[0] = {[2] = 0.5}, [2] = {[0] = 0.5}}, 0.2075662456293, 1.280789275273},
+      {{[0] = {[2] = -0.5}, [2] = {[0] = 0.5}}, 0.06765808515898, 1.280789275273},
+      {{[3] = {[0] = 1}}, 3.091739546388, 1.547865654684},
+      {{[2] = {[1] = 1}}, 0.8794643847793, 1.249504263163},
+      {{[3] = {[3] = 1}}, 2.945106176589, 1.162040641819},
   };
   double E[16 * 16] = {0};
   int32_t dof[16];
@@ -475,6 +482,12 @@ static void test_graph_patches(void **state) {
                       .start = c};
     assert_int_equal(fs_fair_energy(&ctx, &space, &options, c, &energy), FS_OK);
     assert_true(fabs(energy.S - graph[g].S) <= 1e-10 * graph[g].S);
+    fs_quality quality;
+    assert_int_equal(fs_fair_quality(&ctx, &space, c, 32, 32, &quality), FS_OK);
+    assert_true(fabs(quality.S - graph[g].S) <= 1e-10 * graph[g].S && quality.S_caps == 0);
+    /* |p_u x p_v| = (1 + |grad z|^2)^(1/2), near 1 in the corner or on the axis where the gradient is least */
+    assert_true(fabs(quality.area - graph[g].area) <= 1e-10 * graph[g].area);
+    assert_true(fabs(quality.least_density * quality.area - 1) <= 2e-3 && quality.face == 0);
   }
 }
 
