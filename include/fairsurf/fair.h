@@ -94,7 +94,7 @@ typedef struct fs_energy {
   double integral[FS_MAX_TERMS], integral_caps[FS_MAX_TERMS]; /* of each term, unweighted; the part on caps */
   double weight[FS_MAX_TERMS];                                /* derivatives of the functional by the integrals */
   double S, S_caps, Q; /* curvature variation, its part on caps, tangential part; whatever the functional is */
-  double gradient;     /* Euclidean norm of the gradient of F by the free dofs */
+  double gradient; /* Euclidean norm of the gradient of F by the unknowns: the free dofs, or what constraints leave */
 } fs_energy;
 
 /* How far these numbers can be trusted, and how even the parametrisation is. */
@@ -192,6 +192,9 @@ typedef struct fs_fair_report {
 /* Moves the free dofs of c[n_dofs] (in: a start, for example space->start; out: the result) to a minimum of the
    functional: Levenberg-Marquardt with gain ratio, Newton steps at the end, exact Hessians [Kiciak 2013; docs/].
    Cancelling by monitor or by ctx->progress keeps the best iterate: FS_OK and stop = FS_STOP_CANCELLED.
+   Constraints are met by the result however it ends; where the start does not meet them it is moved first. One that contradicts
+   others is FS_ERR_ARGUMENT with its name; one that follows from others is left out, with a note. A tolerance that the start
+   exceeds, and constraints that leave the size free, are FS_ERR_UNSUPPORTED.
    No free dof: FS_OK, nothing moves. A functional of order above continuity + 1 is FS_ERR_UNSUPPORTED.
    A surface that is not regular at a quadrature node at the start (p_u x p_v = 0) is FS_ERR_NUMERIC, with the face. */
 FS_API fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options *options, fs_vec3 *c,

@@ -112,8 +112,43 @@ static void test_samples(void **state) {
   fs_mesh_free(&ctx, mesh);
 }
 
+/* Every allocation fails once. */
+static void test_memory(void **state) {
+  (void)state;
+  struct test_memory memory = {0};
+  fs_context ctx = test_memory_context(&memory), plain = test_context();
+  fs_mesh *mesh = test_torus(8, 6, 3, 1);
+  fs_space *space = NULL;
+  fs_surface *surface = NULL;
+  assert_int_equal(fs_space_create(&ctx, mesh, &space), FS_OK);
+  assert_int_equal(fs_surface_create(&ctx, space, space->start, &surface), FS_OK);
+  for (int kind = 0; kind < 2; kind++) {
+    fs_status status = FS_ERR_MEMORY;
+    for (int64_t n = 1; status == FS_ERR_MEMORY; n++) {
+      fs_nearest *nearest = NULL;
+      int64_t live = memory.n_live;
+      memory.fail_at = memory.n_allocations + n;
+      status =
+          kind == 0 ? fs_nearest_create(&ctx, surface, &nearest) : fs_nearest_create_for_mesh(&ctx, mesh, &nearest);
+      if (status != FS_OK) assert_null(nearest);
+      fs_nearest_free(&ctx, nearest);
+      assert_int_equal(memory.n_live, live);
+      assert_true(n < 20);
+    }
+    assert_int_equal(status, FS_OK);
+  }
+  surface->data[5] = NAN;
+  memory.fail_at = 0;
+  fs_nearest *nearest = NULL;
+  assert_int_equal(fs_nearest_create(&ctx, surface, &nearest), FS_ERR_NUMERIC);
+  assert_non_null(strstr(ctx.message, "patch 0"));
+  fs_surface_free(&ctx, surface);
+  fs_space_free(&ctx, space);
+  fs_mesh_free(&plain, mesh);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_cube_distance), cmocka_unit_test(test_lifted),
-                                     cmocka_unit_test(test_samples)};
+                                     cmocka_unit_test(test_samples), cmocka_unit_test(test_memory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

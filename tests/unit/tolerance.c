@@ -200,9 +200,32 @@ static void test_threads_and_cancel(void **state) {
   tear_down(&f);
 }
 
+static void test_memory(void **state) {
+  (void)state;
+  fixture f;
+  fs_status status = FS_ERR_MEMORY;
+  int64_t n = 1;
+  set_up(&f, test_grid(6, 6, NULL), 0.1);
+  f.options.max_iterations = 2;
+  f.options.n_nodes_square = 3;
+  for (; status == FS_ERR_MEMORY; n += 2) {
+    int64_t live = f.memory.n_live;
+    f.memory.fail_at = f.memory.n_allocations + n;
+    status = fair(&f, 0.01);
+    assert_int_equal(f.memory.n_live, live);
+    if (status != FS_OK) assert_memory_equal(f.c, f.space->start, (size_t)f.space->n_dofs * sizeof *f.c);
+  }
+  assert_int_equal(status, FS_OK);
+  assert_true(n > 30);
+  f.memory.fail_at = 0;
+  assert_true(largest_distance(&f) <= 0.01);
+  tear_down(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_tolerances), cmocka_unit_test(test_functionals),
                                      cmocka_unit_test(test_closed),     cmocka_unit_test(test_mesh_target),
-                                     cmocka_unit_test(test_holds),      cmocka_unit_test(test_threads_and_cancel)};
+                                     cmocka_unit_test(test_holds),      cmocka_unit_test(test_threads_and_cancel),
+                                     cmocka_unit_test(test_memory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -167,8 +167,35 @@ static void test_refusals(void **state) {
   fs_mesh_free(&ctx, grid);
 }
 
+static void test_memory(void **state) {
+  (void)state;
+  struct test_memory memory = {0};
+  fs_context ctx = test_memory_context(&memory), plain = test_context();
+  fs_mesh *mesh = test_torus(8, 6, 3, 1);
+  fs_space *space = NULL;
+  fs_constraints constraints = {.keep = FS_KEEP_VOLUME};
+  fs_fair_options options = {
+      .functional = fs_functional_find("penalised"), .constraints = &constraints, .max_iterations = 1};
+  fs_status status = FS_ERR_MEMORY;
+  options.n_nodes_square = 2;
+  assert_int_equal(fs_space_create(&ctx, mesh, &space), FS_OK);
+  fs_vec3 *c = calloc((size_t)space->n_dofs, sizeof *c);
+  memcpy(c, space->start, (size_t)space->n_dofs * sizeof *c);
+  for (int64_t n = 1; status == FS_ERR_MEMORY; n++) {
+    int64_t live = memory.n_live;
+    memory.fail_at = memory.n_allocations + n;
+    status = fs_fair(&ctx, space, &options, c, NULL);
+    assert_int_equal(memory.n_live, live);
+    if (status != FS_OK) assert_memory_equal(c, space->start, (size_t)space->n_dofs * sizeof *c);
+  }
+  assert_int_equal(status, FS_OK);
+  free(c);
+  fs_space_free(&ctx, space);
+  fs_mesh_free(&plain, mesh);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_derivatives), cmocka_unit_test(test_kept),
-                                     cmocka_unit_test(test_refusals)};
+                                     cmocka_unit_test(test_refusals), cmocka_unit_test(test_memory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
