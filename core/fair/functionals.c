@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: the table of functionals, and the densities they are made of. */
+#include "fair/functional_sum.h"
 #include "fair/kernels.h"
 #include "fair/low_order.h"
 
@@ -74,14 +75,14 @@ static void willmore_penalised(const double *param, const fs_scale *scale, const
                                double *derivative) {
   double n = scale->n_squares, d2 = scale->diameter * scale->diameter;
   derivative[0] = 1;
-  derivative[1] = d2 > 0 ? param[0] / (n * n * d2) : 0;
+  derivative[1] = d2 > 0 ? param[0] * n * n / d2 : 0;
   *value = integral[0] + derivative[1] * integral[1];
 }
 static void area_penalised(const double *param, const fs_scale *scale, const double *integral, double *value,
                            double *derivative) {
   double n = scale->n_squares;
   derivative[0] = 1;
-  derivative[1] = param[0] / (n * n);
+  derivative[1] = param[0] * n * n;
   *value = integral[0] + derivative[1] * integral[1];
 }
 
@@ -93,6 +94,16 @@ static void scale_free(const double *param, const fs_scale *scale, const double 
   derivative[0] = A;
   derivative[1] = c;
   derivative[2] = S - c * Q / A;
+}
+
+/* F = W + C n^2 Q / A */
+static void scale_free_willmore(const double *param, const fs_scale *scale, const double *integral, double *value,
+                                double *derivative) {
+  double n = scale->n_squares, c = param[0] * n * n / integral[2];
+  *value = integral[0] + c * integral[1];
+  derivative[0] = 1;
+  derivative[1] = c;
+  derivative[2] = -c * integral[1] / integral[2];
 }
 
 static const char C_summary[] =
@@ -150,6 +161,15 @@ static const fs_functional functional_thin_plate = {
     .term = {&fs_density_thin_plate},
     .combine = only_the_first,
     .is_linear = true};
+static const fs_functional functional_scale_free_willmore = {
+    .name = "scale-free-willmore",
+    .summary = "the integral of H^2 and C n^2 Q / A for surfaces of which nothing is fixed; keeps the area",
+    .params = penalty,
+    .n_terms = 3,
+    .term = {&fs_density_willmore, &fs_density_tangential, &fs_density_area},
+    .combine = scale_free_willmore,
+    .is_scale_free = true,
+    .is_continued = true};
 static const fs_functional functional_willmore = {.name = "willmore",
                                                   .summary =
                                                       "the integral of H^2, and a penalty on uneven parametrisation",
@@ -157,19 +177,30 @@ static const fs_functional functional_willmore = {.name = "willmore",
                                                   .n_terms = 2,
                                                   .term = {&fs_density_willmore, &fs_density_tangential},
                                                   .combine = willmore_penalised,
-                                                  .is_linear = true};
+                                                  .is_linear = true,
+                                                  .is_continued = true,
+                                                  .when_nothing_is_fixed = &functional_scale_free_willmore};
 static const fs_functional functional_area = {.name = "area",
                                               .summary = "the area, and a penalty on uneven parametrisation",
                                               .params = penalty,
                                               .n_terms = 2,
                                               .term = {&fs_density_area, &fs_density_tangential},
                                               .combine = area_penalised,
-                                              .is_linear = true};
+                                              .is_linear = true,
+                                              .is_continued = true};
 
-const fs_functional *const fs_functionals[] = {
-    &functional_curvature_variation,  &functional_penalised,  &functional_scale_free,
-    &functional_scale_free_penalised, &functional_willmore,   &functional_area,
-    &functional_triharmonic,          &functional_thin_plate, NULL};
+const fs_functional *const fs_functionals[] = {&functional_curvature_variation,
+                                               &functional_penalised,
+                                               &functional_scale_free,
+                                               &functional_scale_free_penalised,
+                                               &functional_willmore,
+                                               &functional_scale_free_willmore,
+                                               &functional_area,
+                                               &functional_triharmonic,
+                                               &functional_thin_plate,
+                                               &fs_functional_sum,
+                                               &fs_functional_scale_free_sum,
+                                               NULL};
 
 const fs_functional *fs_functional_find(const char *name) {
   for (int i = 0; fs_functionals[i] != NULL; i++)

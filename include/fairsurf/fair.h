@@ -44,7 +44,7 @@ typedef struct fs_scale {
 } fs_scale;
 
 /* A function of integrals. Lines of a table. */
-enum { FS_MAX_TERMS = 6 };
+enum { FS_MAX_TERMS = 8 };
 typedef struct fs_functional {
   const char *name, *summary;
   const fs_param *params; /* ends with a NULL name; may be NULL */
