@@ -21,6 +21,7 @@ enum {
   KEY_ITERATIONS,
   KEY_THREADS,
   KEY_BLAS_THREADS,
+  KEY_MAX_MEMORY,
   KEY_FUNCTIONAL,
   KEY_START,
   KEY_NAME,
@@ -320,6 +321,9 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case KEY_THREADS:
     a->threads = parse_integer(state, "threads", text, 1, 64);
     break;
+  case KEY_MAX_MEMORY:
+    a->max_memory = parse_real(state, "max-memory", text, 1e-6, 1e6);
+    break;
   case KEY_BLAS_THREADS:
     a->blas_threads = parse_integer(state, "blas-threads", text, 1, 64);
     break;
@@ -406,7 +410,9 @@ static const struct argp_option fixed_options[] = {
      0},
     {"every", KEY_EVERY, "FOLDER", 0, "write every iterate as FOLDER/iter0000.ply, …", 0},
     {"threads", KEY_THREADS, "N", 0, "threads (1)", 0},
-    {"blas-threads", KEY_BLAS_THREADS, "N", 0, "threads of the linear algebra (1)", 0},
+    {"blas-threads", KEY_BLAS_THREADS, "N", 0, "threads of the linear algebra (1); always 1 below 5000 vertices", 0},
+    {"max-memory", KEY_MAX_MEMORY, "GB", 0, "stop before a factorisation would take more (default: what is available)",
+     0},
     {NULL, 0, NULL, 0, "Patches:", 4},
     {"construction", KEY_CONSTRUCTION, "NAME", 0, "how patch makes the surface (default: the first of --list)", 0},
     {"normals", KEY_NORMALS, "FILE", 0, "patch: a normal per line, x y z, in the order of the vertices", 0},

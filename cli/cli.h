@@ -40,6 +40,7 @@ typedef struct arguments {
   bool json, no_refine, quiet, start_triharmonic, polish;
   double max_seconds, stop_decrease; /* 0: no limit, that of the library */
   int32_t refine, nodes, threads, blas_threads;
+  double max_memory;      /* GB for factorisations; 0: what is available */
   int32_t max_iterations; /* 0 only measures; -1: as many as the library thinks fit */
   int32_t caps;           /* one of fs_cap_inner, or -1: what suits the functional and the file */
   const char *refiner;    /* of the command refine */

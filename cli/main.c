@@ -149,6 +149,8 @@ static fs_status add_marks(job *j) {
   return status;
 }
 
+enum { MANY_VERTICES = 5000 }; /* below, threads of the BLAS wait for each other longer than they work */
+
 static fs_status make_fair(job *j) {
   const arguments *a = j->arguments;
   onlooker o = {isatty(STDERR_FILENO) && !a->quiet, j->ctx, {a->every, j->fine, j->space, FS_OK}};
@@ -172,6 +174,7 @@ static fs_status make_fair(job *j) {
   TRY(make_constraints(j->ctx, &a->constraints, j->fine, j->space, j->c, j->n_steps > 0, j->fixed, &j->constraints));
   fs_space_fix_caps(j->space, j->fixed);
   if (a->every != NULL) TRY(begin_iterates(j->ctx, &o.iterates));
+  if (j->fine->n_vertices >= MANY_VERTICES) fs_blas_set_threads(a->blas_threads);
   status = fs_fair(j->ctx, j->space, &options, j->c, &j->report);
   if (o.is_shown) fprintf(stderr, "\n");
   if (status == FS_OK) TRY(o.iterates.status);
@@ -288,12 +291,15 @@ static void job_free(job *j) {
 int main(int argc, char **argv) {
   arguments arguments;
   parse_arguments(argc, argv, &arguments);
-  fs_context ctx = {.progress = go_on, .note = arguments.quiet ? NULL : print_note, .n_threads = arguments.threads};
+  fs_context ctx = {.progress = go_on,
+                    .note = arguments.quiet ? NULL : print_note,
+                    .n_threads = arguments.threads,
+                    .max_bytes = 1e9 * arguments.max_memory};
   job j = {.ctx = &ctx, .arguments = &arguments, .passes = true};
   fs_status status;
   int code;
   signal(SIGINT, interrupt);
-  fs_blas_set_threads(arguments.blas_threads);
+  fs_blas_set_threads(1);
   status = run(&j);
   code = exit_code(status);
   if (status != FS_OK) fprintf(stderr, "fairsurf: %s\n", ctx.message[0] != '\0' ? ctx.message : fs_status_text(status));

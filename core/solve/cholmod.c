@@ -3,6 +3,8 @@
    The order is found on the graph of blocks, a ninth of the entries, and spread to the rows of the blocks. */
 #include "solve/solver.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <suitesparse/cholmod.h>
 
@@ -70,6 +72,29 @@ static void spread_pattern(fs_solver *s) {
   s->start[3 * a->n_blocks] = 9 * a->col_start[a->n_blocks];
 }
 
+/* Memory that the system has left, in bytes; infinite where it does not say. */
+static double available_memory(void) {
+  double kilobytes = INFINITY;
+  char line[128];
+  FILE *file = fopen("/proc/meminfo", "r");
+  if (file == NULL) return kilobytes;
+  while (fgets(line, sizeof line, file) != NULL)
+    if (sscanf(line, "MemAvailable: %lf kB", &kilobytes) == 1) break;
+  fclose(file);
+  return 1024 * kilobytes;
+}
+
+/* The factor is by far the largest thing, and its size is known before it is made. */
+static fs_status check_memory(fs_context *ctx, const fs_solver *s) {
+  double bytes = 8.0 * (double)s->factor->xsize + 8.0 * (double)s->factor->maxcsize + 4.0 * (double)s->factor->ssize;
+  double limit = ctx->max_bytes > 0 ? ctx->max_bytes : available_memory();
+  bytes += 12.0 * (double)s->matrix.nzmax; /* the permuted copy of the matrix */
+  if (bytes <= limit) return FS_OK;
+  return fs_fail(ctx, FS_ERR_MEMORY,
+                 "factorising the Hessian of %d unknown points would take %.3g GB of memory, and %.3g GB are %s",
+                 s->pattern->n_blocks, 1e-9 * bytes, 1e-9 * limit, ctx->max_bytes > 0 ? "allowed" : "available");
+}
+
 fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver **solver) {
   fs_status status = FS_OK;
   fs_solver *s = NULL;
@@ -106,6 +131,7 @@ fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver 
     status = failed(ctx, s, "analysis");
     goto done;
   }
+  FS_TRY(check_memory(ctx, s));
   /* made here, since the solution itself does not survive when it cannot allocate them */
   if (cholmod_ensure_dense(&s->solution, n, 1, n, CHOLMOD_REAL, &s->common) == NULL ||
       cholmod_ensure_dense(&s->work_y, n, 1, n, CHOLMOD_REAL, &s->common) == NULL ||

@@ -49,6 +49,7 @@ typedef struct fs_context {
   void (*note)(void *user, const char *text); /* "refined once, because …": the library itself never prints */
   void *user;                                 /* handed to the four functions above */
   int32_t n_threads;                          /* 0: one */
+  double max_bytes;                           /* that a factorisation may take; 0: what the system has available */
   struct fs_caps *caps; /* cap matrices by valence, made on demand, freed by fs_context_clear; spaces borrow them */
   char message[256];    /* why the last call failed, in one sentence */
 } fs_context;
