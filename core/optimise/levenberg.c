@@ -335,7 +335,8 @@ fs_status fs_minimise(fs_context *ctx, const fs_objective *o, const fs_minimise_
   state t = {.x = x,
              .nu = options->damping->nu,
              .nu_min = options->least_damping,
-             .nu_failed = options->damping->nu_failed,
+             /* what failed on the way here must not keep the last steps from being Newton's */
+             .nu_failed = options->is_newton ? 0 : options->damping->nu_failed,
              .is_factored = options->damping->is_factored};
   fs_minimise_report r = {.stop = FS_MINIMISE_ITERATIONS};
   double gradient_start = options->gradient_start;
