@@ -284,6 +284,7 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     a->construction = fs_construction_find(text);
     if (a->construction == NULL)
       argp_error(state, "--construction %s is unknown; fairsurf --list shows the known ones", text);
+    a->is_constructed = true;
     break;
   case KEY_NORMALS:
     a->normals = text;
@@ -414,7 +415,8 @@ static const struct argp_option fixed_options[] = {
     {"max-memory", KEY_MAX_MEMORY, "GB", 0, "stop before a factorisation would take more (default: what is available)",
      0},
     {NULL, 0, NULL, 0, "Patches:", 4},
-    {"construction", KEY_CONSTRUCTION, "NAME", 0, "how patch makes the surface (default: the first of --list)", 0},
+    {"construction", KEY_CONSTRUCTION, "NAME", 0,
+     "how patch makes the surface (default: the first of --list); check: measure the surface that patch makes so", 0},
     {"normals", KEY_NORMALS, "FILE", 0, "patch: a normal per line, x y z, in the order of the vertices", 0},
     {NULL, 0, NULL, 0, "Checking:", 4},
     {"require", KEY_REQUIRE, "ORDER", 0,

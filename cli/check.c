@@ -18,7 +18,7 @@ enum { N_CROSSINGS = 10 };
 /* Takes the shape of the surface, then what is measured by it: jumps by its curvature and diameter. */
 static fs_status measure(fs_context *ctx, const arguments *a, check_result *r) {
   fs_continuity_options options = {.n_worst = a->worst};
-  TRY(load_surface(ctx, a, a->mesh, &r->surface));
+  TRY(a->is_constructed ? construct_surface(ctx, a, &r->surface) : load_surface(ctx, a, a->mesh, &r->surface));
   TRY(fs_edges_create(ctx, r->surface, 0, &r->edges));
   TRY(fs_shape_measure(ctx, r->surface, 0, &r->shape));
   options.curvature_scale = r->shape.curvature;

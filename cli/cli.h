@@ -49,6 +49,7 @@ typedef struct arguments {
   double functional_param[MAX_PARAM_VALUES];
   constraint_arguments constraints;
   const fs_construction *construction; /* of the command patch */
+  bool is_constructed;                 /* --construction was given: check measures what patch makes */
   double construction_param[MAX_PARAM_VALUES];
   const char *normals; /* file, or NULL */
   int32_t require;     /* of the command check: the order of continuity, or -1 */
@@ -84,6 +85,8 @@ fs_status run_check(fs_context *ctx, const arguments *arguments, bool *passes);
 void put_string(FILE *file, const char *text); /* as a string of JSON */
 
 /* The command patch. */
+/* The surface of the command patch, by arguments->construction from the file arguments->mesh. The caller frees it. */
+fs_status construct_surface(fs_context *ctx, const arguments *arguments, fs_surface **surface);
 fs_status run_patch(fs_context *ctx, const arguments *arguments);
 
 /* marked[n_vertices] from a file of marks: one vertex number per line, counted from 0, alone or followed by "fixed" or

@@ -97,10 +97,14 @@ static fs_status build_from_splines(fs_context *ctx, const arguments *a, fs_surf
   return status;
 }
 
+fs_status construct_surface(fs_context *ctx, const arguments *a, fs_surface **surface) {
+  return a->construction->takes == FS_TAKES_SPLINES ? build_from_splines(ctx, a, surface)
+                                                    : build_from_mesh(ctx, a, surface);
+}
+
 fs_status run_patch(fs_context *ctx, const arguments *a) {
   fs_surface *surface = NULL;
-  fs_status status = a->construction->takes == FS_TAKES_SPLINES ? build_from_splines(ctx, a, &surface)
-                                                                : build_from_mesh(ctx, a, &surface);
+  fs_status status = construct_surface(ctx, a, &surface);
   if (status == FS_OK) status = write_outputs(ctx, a, surface);
   fs_surface_free(ctx, surface);
   return status;
