@@ -36,6 +36,7 @@ enum {
   KEY_WORST,
   KEY_COMPARE,
   KEY_CONSTRUCTION,
+  KEY_KIND,
   KEY_NORMALS,
   KEY_POLISH,
   KEY_MAX_TIME,
@@ -45,7 +46,7 @@ enum {
 };
 
 /* A parameter name of the tables; several exporters may share one. */
-enum { MAX_NAMES = 64, MAX_EVENTS = 256 };
+enum { MAX_NAMES = 128, MAX_EVENTS = 256 };
 typedef struct named_param {
   const fs_param *param;
   char doc[200];
@@ -97,6 +98,7 @@ static void collect_params(parser *p) {
   for (int i = 0; fs_refiners[i] != NULL; i++) add_params(p, fs_refiners[i]->name, fs_refiners[i]->params);
   for (int i = 0; fs_constructions[i] != NULL; i++)
     add_params(p, fs_constructions[i]->name, fs_constructions[i]->params);
+  for (int i = 0; fs_plots[i] != NULL; i++) add_params(p, fs_plots[i]->name, fs_plots[i]->params);
   for (int i = 0; fs_exporters[i] != NULL; i++) add_params(p, fs_exporters[i]->name, fs_exporters[i]->params);
 }
 
@@ -169,8 +171,8 @@ static command command_of(const char *text) {
   static const struct {
     const char *name;
     command command;
-  } known[] = {{"info", COMMAND_INFO},     {"refine", COMMAND_REFINE}, {"fair", COMMAND_FAIR},
-               {"export", COMMAND_EXPORT}, {"patch", COMMAND_PATCH},   {"check", COMMAND_CHECK}};
+  } known[] = {{"info", COMMAND_INFO},   {"refine", COMMAND_REFINE}, {"fair", COMMAND_FAIR}, {"export", COMMAND_EXPORT},
+               {"patch", COMMAND_PATCH}, {"check", COMMAND_CHECK},   {"plot", COMMAND_PLOT}};
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
     if (strcmp(known[i].name, text) == 0) return known[i].command;
   return COMMAND_NONE;
@@ -198,6 +200,7 @@ static void finish_outputs(struct argp_state *state, parser *p) {
     fill_params(state, p, o->exporter->params, i, o->param);
   }
   fill_params(state, p, a->functional->params, p->n_events, a->functional_param);
+  fill_params(state, p, a->plot->params, p->n_events, a->plot_param);
   fill_params(state, p, a->construction->params, p->n_events, a->construction_param);
   for (int i = 0; fs_refiners[i] != NULL; i++)
     if (strcmp(fs_refiners[i]->name, a->refiner) == 0)
@@ -222,11 +225,13 @@ static int32_t parse_order(struct argp_state *state, const char *text) {
 
 static void finish(struct argp_state *state, parser *p) {
   arguments *a = p->arguments;
-  if (a->command == COMMAND_NONE) argp_error(state, "a command is needed: info, refine, fair, export, patch or check");
+  if (a->command == COMMAND_NONE)
+    argp_error(state, "a command is needed: info, refine, fair, export, patch, plot or check");
   if (a->mesh == NULL) argp_error(state, "a mesh is needed");
   finish_outputs(state, p);
   if (a->command == COMMAND_EXPORT && a->n_outputs == 0) argp_error(state, "export needs an output: -o FILE");
   if (a->command == COMMAND_PATCH && a->n_outputs == 0) argp_error(state, "patch needs an output: -o FILE");
+  if (a->command == COMMAND_PLOT && a->n_outputs == 0) argp_error(state, "plot needs an output: -o FILE");
   if (a->command == COMMAND_REFINE && a->n_outputs == 0) argp_error(state, "refine needs an output: -o FILE");
   if (a->command == COMMAND_CHECK) finish_check(state, p);
   if (a->no_refine && a->refine > 0) argp_error(state, "--refine and --no-refine exclude each other");
@@ -285,6 +290,10 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     if (a->construction == NULL)
       argp_error(state, "--construction %s is unknown; fairsurf --list shows the known ones", text);
     a->is_constructed = true;
+    break;
+  case KEY_KIND:
+    a->plot = fs_plot_find(text);
+    if (a->plot == NULL) argp_error(state, "--kind %s is unknown; fairsurf --list shows the known plots", text);
     break;
   case KEY_NORMALS:
     a->normals = text;
@@ -365,7 +374,7 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     if (state->arg_num == 0) {
       a->command = command_of(text);
       if (a->command == COMMAND_NONE)
-        argp_error(state, "unknown command %s: info, refine, fair, export, patch and check are known", text);
+        argp_error(state, "unknown command %s: info, refine, fair, export, patch, plot and check are known", text);
     } else if (state->arg_num == 1) {
       a->mesh = text;
     } else {
@@ -423,6 +432,8 @@ static const struct argp_option fixed_options[] = {
      "g0, g1, g2 or g3 with --tolerance X (1e-6): exit with 5 where edges or vertices miss it", 0},
     {"worst", KEY_WORST, "N", 0, "length of the lists of the worst edges (10)", 0},
     {"compare", KEY_COMPARE, "START", 0, "measure START too, and say how the surface differs", 0},
+    {NULL, 0, NULL, 0, "Plots:", 4},
+    {"kind", KEY_KIND, "NAME", 0, "which curves plot draws (default: the first of --list)", 0},
     {NULL, 0, NULL, 0, "About:", 9},
     {"list", KEY_LIST, NULL, 0, "list functionals, rules, refinements, constructions, formats, measures", 0},
     {"version", 'V', NULL, 0, "print the version and the BLAS in use", 0},
@@ -438,6 +449,7 @@ void parse_arguments(int argc, char **argv, arguments *a) {
       "  fair MESH     move the free vertices to the fairest surface, write it\n"
       "  export MESH   write the surface as it is\n"
       "  patch MESH    write a surface through the vertices, made without fairing\n"
+      "  plot MESH     draw isophotes, zebra, lines of curvature, sections, … on the surface as it is\n"
       "  check FILE    measure how smoothly patches meet, curvatures, energies, self-intersections; FILE is a mesh or "
       "holds\n"
       "                patches; an -o shows the jumps as colours\n\n"
@@ -451,6 +463,7 @@ void parse_arguments(int argc, char **argv, arguments *a) {
   int n = 0;
   *a = (arguments){.functional = fs_functionals[0],
                    .construction = fs_constructions[0],
+                   .plot = fs_plots[0],
                    .refiner = "averaging",
                    .max_iterations = -1,
                    .threads = 1,
@@ -460,8 +473,8 @@ void parse_arguments(int argc, char **argv, arguments *a) {
                    .caps = -1};
   collect_params(&p);
   for (int i = 0; i < N_FIXED_OPTIONS; i++) options[n++] = fixed_options[i];
-  options[n++] =
-      (struct argp_option){.doc = "Parameters (of functionals, refinements, constructions, file formats):", .group = 5};
+  options[n++] = (struct argp_option){
+      .doc = "Parameters (of functionals, refinements, constructions, plots, file formats):", .group = 5};
   for (int32_t i = 0; i < p.n_names; i++) {
     options[n++] =
         (struct argp_option){.name = p.name[i].param->name, .key = key_of(&p, i), .arg = "VALUE", .doc = p.name[i].doc};

@@ -17,6 +17,7 @@ typedef enum command {
   COMMAND_FAIR,
   COMMAND_EXPORT,
   COMMAND_PATCH,
+  COMMAND_PLOT,
   COMMAND_CHECK
 } command;
 
@@ -51,6 +52,8 @@ typedef struct arguments {
   const fs_construction *construction; /* of the command patch */
   bool is_constructed;                 /* --construction was given: check measures what patch makes */
   double construction_param[MAX_PARAM_VALUES];
+  const fs_plot *plot; /* of the command plot */
+  double plot_param[MAX_PARAM_VALUES];
   const char *normals; /* file, or NULL */
   int32_t require;     /* of the command check: the order of continuity, or -1 */
   int32_t worst;       /* length of its lists */
@@ -88,6 +91,9 @@ void put_string(FILE *file, const char *text); /* as a string of JSON */
 /* The surface of the command patch, by arguments->construction from the file arguments->mesh. The caller frees it. */
 fs_status construct_surface(fs_context *ctx, const arguments *arguments, fs_surface **surface);
 fs_status run_patch(fs_context *ctx, const arguments *arguments);
+
+/* The command plot. */
+fs_status run_plot(fs_context *ctx, const arguments *arguments);
 
 /* marked[n_vertices] from a file of marks: one vertex number per line, counted from 0, alone or followed by "fixed" or
    "free"; # starts a comment. */

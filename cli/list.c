@@ -21,6 +21,8 @@ void print_list(void) {
   printf("constructions:\n");
   for (int i = 0; fs_constructions[i] != NULL; i++)
     printf("  %-20s %s\n", fs_constructions[i]->name, fs_constructions[i]->summary);
+  printf("plots:\n");
+  for (int i = 0; fs_plots[i] != NULL; i++) printf("  %-20s %s\n", fs_plots[i]->name, fs_plots[i]->summary);
   printf("readers:\n");
   for (int i = 0; fs_readers[i] != NULL; i++) printf("  .%-19s %s\n", fs_readers[i]->extension, fs_readers[i]->summary);
   printf("readers of surfaces:\n");

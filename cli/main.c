@@ -252,6 +252,7 @@ static fs_status run(job *j) {
   const arguments *a = j->arguments;
   double start = now(), then = start, t;
   if (a->command == COMMAND_PATCH) return run_patch(j->ctx, a);
+  if (a->command == COMMAND_PLOT) return run_plot(j->ctx, a);
   if (a->command == COMMAND_CHECK) return run_check(j->ctx, a, &j->passes);
   TRY(fs_mesh_read_notes(j->ctx, a->mesh, &j->mesh, &j->notes));
   describe(j);

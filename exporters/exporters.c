@@ -10,7 +10,7 @@
 
 extern const fs_exporter fs_exporter_povray, fs_exporter_openscad, fs_exporter_threemf, fs_exporter_html,
     fs_exporter_step, fs_exporter_bezierview, fs_exporter_splines;
-extern const fs_exporter fs_exporter_draco, fs_exporter_glb;
+extern const fs_exporter fs_exporter_draco, fs_exporter_glb, fs_exporter_svg, fs_exporter_pdf;
 
 const fs_exporter *const fs_exporters[] = {&fs_exporter_povray,
                                            &fs_exporter_obj,
@@ -30,6 +30,10 @@ const fs_exporter *const fs_exporters[] = {&fs_exporter_povray,
 #endif
 #ifdef FS_HAVE_HTML
                                            &fs_exporter_html,
+#endif
+#ifdef FS_HAVE_CAIRO
+                                           &fs_exporter_svg,
+                                           &fs_exporter_pdf,
 #endif
                                            NULL};
 

@@ -103,5 +103,10 @@ done:
 }
 
 const fs_exporter fs_exporter_povray = {
-    "povray", "pov", "POV-Ray 3.7 scene and object, native bicubic patches", params, FS_EXPORT_SURFACE, write,
+    .name = "povray",
+    .extension = "pov",
+    .summary = "POV-Ray 3.7 scene and object, native bicubic patches",
+    .params = params,
+    .what = FS_EXPORT_SURFACE,
+    .write = write,
 };

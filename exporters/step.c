@@ -150,5 +150,10 @@ done:
 }
 
 const fs_exporter fs_exporter_step = {
-    "step", "step", "STEP AP214: exact B-spline faces, a solid where closed", params, FS_EXPORT_SURFACE, write,
+    .name = "step",
+    .extension = "step",
+    .summary = "STEP AP214: exact B-spline faces, a solid where closed",
+    .params = params,
+    .what = FS_EXPORT_SURFACE,
+    .write = write,
 };

@@ -4,6 +4,7 @@
 #define FAIRSURF_EXPORT_H
 
 #include <fairsurf/analyse.h>
+#include <fairsurf/analyse_curves.h>
 #include <fairsurf/fair.h>
 
 #ifdef __cplusplus
@@ -17,7 +18,8 @@ typedef struct fs_model {
   const fs_mesh *control; /* the control net, with the positions to write */
   const fs_surface *surface;
   const fs_measure *colour;
-  const uint8_t *fixed; /* [n_vertices] of control: 1 where fairing kept the vertex */
+  const fs_curves *curves; /* on the surface, for exporters that draw; or NULL */
+  const uint8_t *fixed;    /* [n_vertices] of control: 1 where fairing kept the vertex */
   const fs_cap_notes
       *caps;             /* inner coefficients that make the surface together with control; NULL: its caps are linear */
   const char *made_with; /* one line for comments: version, functional, parameters; or NULL */
@@ -44,6 +46,7 @@ typedef struct fs_exporter {
   const fs_param *params;
   fs_export_what what; /* what it can write; BOTH: model->surface when there is one, else model->control */
   fs_status (*write)(fs_context *ctx, const fs_model *model, const double *param, const fs_output *output);
+  bool has_curves; /* writes model->curves too, where there are some */
 } fs_exporter;
 FS_API extern const fs_exporter *const fs_exporters[];             /* ends with NULL */
 FS_API const fs_exporter *fs_exporter_find(const char *extension); /* "pov"; NULL: unknown */

@@ -16,6 +16,7 @@
 #include <fairsurf/construct_junction.h>
 #include <fairsurf/construct_gap.h>
 #include <fairsurf/analyse.h>
+#include <fairsurf/analyse_curves.h>
 #include <fairsurf/export.h>
 #include <fairsurf/file.h>
 

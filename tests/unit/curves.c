@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT */
+/* Curves on surfaces against what they are by formula: on z = (x^2 + y^2) / 2 isophotes and lines of equal mean curvature are
+   circles, lines of curvature circles and parabolas, sections parabolas; umbilics of cubic perturbations have known indices. */
+#include <fairsurf/analyse_curves.h>
+#include "../support/support.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+#include <cmocka.h>
+
+/* ---- graphs over [-1, 1]^2 in four bicubic patches --------------------------------------------------------------- */
+
+typedef struct graph {
+  double c30, c12; /* z = (x^2 + y^2) / 2 + c30 x^3 + c12 x y^2 */
+} graph;
+
+/* Blossom of x^k over x = a + t (b - a), of degree 3, at i ones: symmetric mean of products. */
+static double blossom(int k, double a, double b, int i) {
+  double arg[3], e[4] = {1, 0, 0, 0};
+  static const double binomial[4] = {1, 3, 3, 1};
+  for (int n = 0; n < 3; n++) arg[n] = n < i ? b : a;
+  for (int n = 0; n < 3; n++)
+    for (int m = 3; m > 0; m--) e[m] += arg[n] * e[m - 1];
+  return e[k] / binomial[k];
+}
+
+static void make_graph(graph g, fs_patch patch[4], double *data, fs_surface *surface) {
+  memset(patch, 0, 4 * sizeof *patch);
+  for (int p = 0; p < 4; p++) {
+    double x0 = p % 2 - 1.0, y0 = p / 2 - 1.0;
+    patch[p] = (fs_patch){.kind = FS_PATCH_TENSOR_BEZIER,
+                          .n_sides = 4,
+                          .degree_u = 3,
+                          .degree_v = 3,
+                          .data_start = (size_t)(48 * p),
+                          .face = FS_NONE,
+                          .valence = 4,
+                          .neighbour = {FS_NONE, FS_NONE, FS_NONE, FS_NONE}};
+    for (int k = 0; k < 16; k++) {
+      double *b = data + 48 * p + 3 * k, X[4], Y[4];
+      for (int m = 0; m < 4; m++) X[m] = blossom(m, x0, x0 + 1, k % 4), Y[m] = blossom(m, y0, y0 + 1, k / 4);
+      b[0] = X[1], b[1] = Y[1];
+      b[2] = 0.5 * (X[2] + Y[2]) + g.c30 * X[3] + g.c12 * X[1] * Y[2];
+    }
+  }
+  static const int beside[4][3] = {{0, 1, 1}, {2, 1, 3}, {0, 2, 2}, {1, 2, 3}}; /* patch, side, neighbour */
+  for (int k = 0; k < 4; k++) {
+    int p = beside[k][0], s = beside[k][1], q = beside[k][2], r = s == 1 ? 3 : 0;
+    patch[p].neighbour[s] = q, patch[p].neighbour_side[s] = (uint8_t)r;
+    patch[q].neighbour[r] = p, patch[q].neighbour_side[r] = (uint8_t)s;
+  }
+  *surface = (fs_surface){.n_patches = 4, .n_data = 192, .patch = patch, .data = data};
+}
+
+static double radius(fs_vec3 p) { return hypot(p.x, p.y); }
+
+/* ---- tests ------------------------------------------------------------------------------------------------------- */
+
+/* n . z = 1 / sqrt(1 + r^2): a circle for every angle up to 45 degrees, in one closed curve; arcs in the corners beyond. */
+static void test_isophotes(void **state) {
+  fs_context ctx = test_context();
+  fs_patch patch[4];
+  double data[192], param[3] = {20, 0, 90};
+  fs_surface surface;
+  fs_curves *curves = NULL;
+  int32_t n_closed = 0;
+  (void)state;
+  make_graph((graph){0}, patch, data, &surface);
+  assert_int_equal(fs_surface_validate(&ctx, &surface), FS_OK);
+  assert_int_equal(fs_plot_trace(&ctx, fs_plot_find("isophotes"), &surface, param, NULL, &curves), FS_OK);
+  for (int32_t i = 0; i < curves->n_curves; i++) {
+    const fs_surface_curve *c = &curves->curve[i];
+    double r = tan(c->level * acos(-1.0) / 180);
+    n_closed += c->is_closed;
+    assert_true(c->is_closed == (r < 1));
+    for (int32_t k = 0; k < c->n_points; k++) {
+      const fs_curve_point *p = &curves->point[c->first + k];
+      assert_true(fabs(radius(p->position) - r) < 1e-10);
+      assert_true(fabs(p->position.z - 0.5 * r * r) < 1e-10);
+      if (k > 0) { /* the chord stays within 1e-5 of the diagonal 3 */
+        double chord = hypot(p->position.x - p[-1].position.x, p->position.y - p[-1].position.y);
+        assert_true(r - sqrt(fmax(0, r * r - chord * chord / 4)) < 1e-4);
+      }
+    }
+  }
+  assert_int_equal(n_closed, 5); /* 4.5, 13.5 .. 40.5 degrees */
+  fs_curves_free(&ctx, curves);
+}
+
+/* H = (2 + r^2) / (2 (1 + r^2)^1.5) on circles. */
+static void test_mean_curvature(void **state) {
+  fs_context ctx = test_context();
+  fs_patch patch[4];
+  double data[192], param[2] = {10, 0.1};
+  fs_surface surface;
+  fs_curves *curves = NULL;
+  (void)state;
+  make_graph((graph){0}, patch, data, &surface);
+  assert_int_equal(fs_plot_trace(&ctx, fs_plot_find("mean-curvature"), &surface, param, NULL, &curves), FS_OK);
+  assert_true(curves->n_curves >= 4);
+  for (int32_t i = 0; i < curves->n_curves; i++)
+    for (int32_t k = 0; k < curves->curve[i].n_points; k++) {
+      double r = radius(curves->point[curves->curve[i].first + k].position);
+      assert_true(fabs((2 + r * r) / (2 * pow(1 + r * r, 1.5)) - curves->curve[i].level) < 1e-10);
+    }
+  fs_curves_free(&ctx, curves);
+}
+
+/* Every line is a circle around the axis or lies in a plane through it. */
+static void test_curvature_lines(void **state) {
+  fs_context ctx = test_context();
+  fs_patch patch[4];
+  double data[192];
+  fs_surface surface;
+  fs_curves *curves = NULL;
+  int32_t n_circles = 0, n_meridians = 0;
+  (void)state;
+  make_graph((graph){0}, patch, data, &surface);
+  for (int which = 1; which <= 2; which++) {
+    assert_int_equal(fs_trace_curvature_lines(&ctx, &surface, which, 0.2, NULL, &curves), FS_OK);
+    for (int32_t i = 0; i < curves->n_curves; i++) {
+      const fs_curve_point *p = &curves->point[curves->curve[i].first];
+      for (int32_t k = 0; k < curves->curve[i].n_points; k++) {
+        if (which == 1) /* the larger curvature, 1 / sqrt(1 + r^2), goes around */
+          assert_true(fabs(radius(p[k].position) - radius(p[0].position)) < 2e-4);
+        else
+          assert_true(fabs(p[k].position.x * p[0].position.y - p[k].position.y * p[0].position.x) < 2e-4);
+      }
+      n_circles += which == 1, n_meridians += which == 2;
+    }
+    fs_curves_free(&ctx, curves);
+    curves = NULL;
+  }
+  assert_true(n_circles >= 5 && n_meridians >= 10);
+}
+
+/* The section y = const is the parabola z = x^2 / 2 + const: curvature (1 + x^2)^-1.5, teeth downwards, longest at x = 0. */
+static void test_sections(void **state) {
+  fs_context ctx = test_context();
+  fs_patch patch[4];
+  double data[192], param[4] = {5, 90, 0, 0.1}, longest = 0;
+  fs_surface surface;
+  fs_curves *curves = NULL;
+  (void)state;
+  make_graph((graph){0}, patch, data, &surface);
+  assert_int_equal(fs_plot_trace(&ctx, fs_plot_find("sections"), &surface, param, NULL, &curves), FS_OK);
+  assert_int_equal(curves->n_curves, 5);
+  for (int32_t i = 0; i < curves->n_points; i++)
+    longest = fmax(longest, hypot(curves->point[i].tooth.x, curves->point[i].tooth.z));
+  for (int32_t i = 0; i < curves->n_points; i++) {
+    const fs_curve_point *p = &curves->point[i];
+    double k = pow(1 + p->position.x * p->position.x, -1.5);
+    assert_true(fabs(p->tooth.y) < 1e-12);
+    assert_true(p->tooth.z < 0);
+    assert_true(fabs(hypot(p->tooth.x, p->tooth.z) - k * longest) < 1e-3 * longest);
+    assert_true(fabs(p->tooth.x + p->position.x * p->tooth.z) < 1e-9); /* along the normal of the parabola */
+  }
+  fs_curves_free(&ctx, curves);
+}
+
+/* x^3 - 3 x y^2 makes a star, x^3 + x y^2 a lemon of the apex. */
+static void test_umbilics(void **state) {
+  static const graph cubic[2] = {{0.1, -0.3}, {0.1, 0.1}};
+  fs_context ctx = test_context();
+  fs_patch patch[4];
+  double data[192];
+  fs_surface surface;
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    fs_curves *curves = NULL;
+    int32_t n_apex = 0;
+    make_graph(cubic[k], patch, data, &surface);
+    assert_int_equal(fs_trace_umbilics(&ctx, &surface, NULL, &curves), FS_OK);
+    for (int32_t i = 0; i < curves->n_marks; i++) {
+      if (radius(curves->mark[i].point.position) > 1e-8) continue;
+      n_apex++;
+      assert_int_equal(curves->mark[i].index, k == 0 ? -1 : 1);
+    }
+    assert_int_equal(n_apex, 1);
+    fs_curves_free(&ctx, curves);
+  }
+}
+
+/* Two planes that meet in an angle: the isophote of a curved pair has a kink of a known size only where the normals turn. Here
+   a cylinder z = x^2 / 2 (x < 0) goes on as z = x^2 (x > 0): G1, and sections have a jump of the curvature from 1 to 2. */
+static void test_section_shows_jump(void **state) {
+  fs_context ctx = test_context();
+  fs_patch patch[4];
+  double data[192], param[4] = {1, 90, 0, 0.1};
+  fs_surface surface;
+  fs_curves *curves = NULL;
+  double before = 0, after = 0;
+  (void)state;
+  make_graph((graph){0}, patch, data, &surface);
+  for (int k = 0; k < 64; k++) /* patches of x > 0: z + x^2 / 2 */
+    if (k / 16 % 2 == 1) data[3 * k + 2] += 0.5 * blossom(2, 0, 1, k % 4);
+  assert_int_equal(fs_plot_trace(&ctx, fs_plot_find("sections"), &surface, param, NULL, &curves), FS_OK);
+  assert_int_equal(curves->n_curves, 1);
+  for (int32_t i = 0; i < curves->n_points; i++) {
+    const fs_curve_point *p = &curves->point[i];
+    double tooth = hypot(p->tooth.x, p->tooth.z), x = p->position.x;
+    if (x > -0.05 && x < -1e-9) before = fmax(before, tooth);
+    if (x < 0.05 && x > 1e-9) after = fmax(after, tooth);
+  }
+  assert_true(fabs(after / before - 2) < 0.02);
+  fs_curves_free(&ctx, curves);
+}
+
+static void test_refusals(void **state) {
+  fs_context ctx = test_context();
+  fs_patch patch[4];
+  double data[192], param[3] = {0, 0, 90};
+  fs_surface surface;
+  fs_curves *curves = NULL;
+  (void)state;
+  make_graph((graph){0}, patch, data, &surface);
+  assert_int_equal(fs_plot_trace(&ctx, fs_plot_find("isophotes"), &surface, param, NULL, &curves), FS_ERR_ARGUMENT);
+  assert_non_null(strstr(ctx.message, "count"));
+  assert_null(curves);
+  assert_null(fs_plot_find("nothing"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_isophotes),       cmocka_unit_test(test_mean_curvature),
+      cmocka_unit_test(test_curvature_lines), cmocka_unit_test(test_sections),
+      cmocka_unit_test(test_umbilics),        cmocka_unit_test(test_section_shows_jump),
+      cmocka_unit_test(test_refusals),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
