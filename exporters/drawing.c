@@ -2,6 +2,7 @@
 /* Single role: drawings: the pages, and what is drawn in each view: dark areas, borders, contours, curves, combs, umbilics.
    Contours are the isophotes of the direction of view: n . towards = 0. */
 #include "drawing.h"
+#include "writer.h"
 #include "base/base.h"
 #include "analyse/curves.h"
 #include "math/diffgeo.h"
@@ -215,8 +216,9 @@ done:
 }
 
 static cairo_status_t write_bytes(void *closure, const unsigned char *bytes, unsigned int size) {
-  const fs_sink *sink = closure;
-  return sink->write(sink->user, bytes, size) == FS_OK ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+  fs_writer *writer = closure;
+  fs_writer_bytes(writer, bytes, size);
+  return writer->status == FS_OK ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
 }
 
 /* The views of a page: one, or two rows of two. Those beside each other are as high as the higher one, those below each
@@ -298,29 +300,36 @@ static int32_t choose_steps(const fs_surface *surface) {
   return steps;
 }
 
+static fs_status draw(sheet *s, layout *l, fs_writer *writer, fs_drawing_open open) {
+  cairo_surface_t *paper = open(write_bytes, writer, s->param[FS_DRAWING_WIDTH] * point_per_mm,
+                                (l->height[0] + l->height[1]) * point_per_mm);
+  cairo_status_t drawn;
+  fs_status status;
+  s->cairo = cairo_create(paper);
+  status = draw_page(s, l);
+  drawn = cairo_status(s->cairo);
+  cairo_destroy(s->cairo);
+  cairo_surface_finish(paper);
+  if (drawn == CAIRO_STATUS_SUCCESS) drawn = cairo_surface_status(paper);
+  cairo_surface_destroy(paper);
+  if (status != FS_OK) return status;
+  status = fs_writer_finish(writer);
+  if (status != FS_OK || drawn == CAIRO_STATUS_SUCCESS) return status;
+  return fs_fail(s->ctx, drawn == CAIRO_STATUS_NO_MEMORY ? FS_ERR_MEMORY : FS_ERR_IO, "cairo could not draw: %s",
+                 cairo_status_to_string(drawn));
+}
+
 fs_status fs_drawing_write(fs_context *ctx, const fs_model *model, const double *param, const fs_output *output,
                            const char *extension, fs_drawing_open open) {
   fs_status status = FS_OK;
   sheet s = {.ctx = ctx, .model = model, .param = param};
   layout l = {0};
-  fs_sink sink;
-  cairo_surface_t *paper = NULL;
+  fs_writer writer;
   FS_TRY(fs_tessellate(ctx, model->surface, choose_steps(model->surface), &s.triangles));
   FS_TRY(make_layout(ctx, s.triangles, model->curves, param, &l));
-  FS_TRY(output->open(output->user, extension, &sink));
-  paper = open(write_bytes, &sink, param[FS_DRAWING_WIDTH] * point_per_mm, (l.height[0] + l.height[1]) * point_per_mm);
-  s.cairo = cairo_create(paper);
-  FS_TRY(draw_page(&s, &l));
-  cairo_surface_finish(paper);
-  if (cairo_status(s.cairo) != CAIRO_STATUS_SUCCESS || cairo_surface_status(paper) != CAIRO_STATUS_SUCCESS)
-    status = fs_fail(ctx, cairo_surface_status(paper) == CAIRO_STATUS_NO_MEMORY ? FS_ERR_MEMORY : FS_ERR_IO,
-                     "the drawing could not be written: %s", cairo_status_to_string(cairo_surface_status(paper)));
+  fs_writer_start(&writer, ctx, output, extension);
+  FS_TRY(draw(&s, &l, &writer, open));
 done:
-  if (s.cairo != NULL) cairo_destroy(s.cairo);
-  if (paper != NULL) {
-    cairo_surface_finish(paper);
-    cairo_surface_destroy(paper);
-  }
   for (int32_t i = 0; i < 4; i++) fs_view_clear(ctx, &l.view[i]);
   fs_triangles_free(ctx, s.triangles);
   return status;

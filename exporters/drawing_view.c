@@ -5,7 +5,7 @@
 #include "analyse/curves.h"
 #include "math/vec3.h"
 
-enum { N_CELLS = 1400 };
+enum { N_CELLS = 1000 };
 
 fs_vec3 fs_view_project(const fs_view *view, fs_vec3 p) {
   return (fs_vec3){fs_vec3_dot(p, view->right), fs_vec3_dot(p, view->up), fs_vec3_dot(p, view->towards)};

@@ -2,6 +2,8 @@
 /* Curves on surfaces against what they are by formula: on z = (x^2 + y^2) / 2 isophotes and lines of equal mean curvature are
    circles, lines of curvature circles and parabolas, sections parabolas; umbilics of cubic perturbations have known indices. */
 #include <fairsurf/analyse_curves.h>
+#include <fairsurf/construct.h>
+#include "math/vec3.h"
 #include "../support/support.h"
 #include <math.h>
 #include <setjmp.h>
@@ -182,8 +184,14 @@ static void test_umbilics(void **state) {
   }
 }
 
-/* Two planes that meet in an angle: the isophote of a curved pair has a kink of a known size only where the normals turn. Here
-   a cylinder z = x^2 / 2 (x < 0) goes on as z = x^2 (x > 0): G1, and sections have a jump of the curvature from 1 to 2. */
+/* The halves x < 0 of z = (x^2 + y^2) / 2 and x > 0 of z = x^2 + y^2 / 2: the normals agree on x = 0, the curvatures across
+   it are 1 and 2. */
+static void make_join(fs_patch patch[4], double *data, fs_surface *surface) {
+  make_graph((graph){0}, patch, data, surface);
+  for (int k = 0; k < 64; k++)
+    if (k / 16 % 2 == 1) data[3 * k + 2] += 0.5 * blossom(2, 0, 1, k % 4);
+}
+
 static void test_section_shows_jump(void **state) {
   fs_context ctx = test_context();
   fs_patch patch[4];
@@ -192,9 +200,7 @@ static void test_section_shows_jump(void **state) {
   fs_curves *curves = NULL;
   double before = 0, after = 0;
   (void)state;
-  make_graph((graph){0}, patch, data, &surface);
-  for (int k = 0; k < 64; k++) /* patches of x > 0: z + x^2 / 2 */
-    if (k / 16 % 2 == 1) data[3 * k + 2] += 0.5 * blossom(2, 0, 1, k % 4);
+  make_join(patch, data, &surface);
   assert_int_equal(fs_plot_trace(&ctx, fs_plot_find("sections"), &surface, param, NULL, &curves), FS_OK);
   assert_int_equal(curves->n_curves, 1);
   for (int32_t i = 0; i < curves->n_points; i++) {
@@ -205,6 +211,109 @@ static void test_section_shows_jump(void **state) {
   }
   assert_true(fabs(after / before - 2) < 0.02);
   fs_curves_free(&ctx, curves);
+}
+
+/* How often curves cross a side that two patches share, and how often they turn there by more than a degree between the
+   chords before and after it. */
+static void count_kinks(const fs_curves *curves, int32_t *n_sides, int32_t *n_kinks) {
+  *n_sides = *n_kinks = 0;
+  for (int32_t i = 0; i < curves->n_curves; i++) {
+    const fs_surface_curve *c = &curves->curve[i];
+    for (int32_t k = 1; k + 1 < c->n_points; k++) {
+      const fs_curve_point *p = &curves->point[c->first + k];
+      fs_vec3 a = fs_vec3_sub(p->position, p[-1].position), b = fs_vec3_sub(p[1].position, p->position);
+      if (p->place.patch == p[1].place.patch) continue;
+      ++*n_sides;
+      *n_kinks += atan2(fs_vec3_length(fs_vec3_cross(a, b)), fs_vec3_dot(a, b)) > acos(-1.0) / 180;
+    }
+  }
+}
+
+/* n ~ (-k x, -y, 1), k the curvature across x = 0. On that line the derivative of n . l by x is -k l_x / sqrt(1 + y^2), that
+   by y is the same on both sides: the slopes dy/dx of an isophote there have the ratio of the curvatures. */
+static void test_isophotes_show_join(void **state) {
+  fs_context ctx = test_context();
+  fs_patch patch[4];
+  double data[192], param[3] = {24, 30, 30};
+  fs_surface surface;
+  fs_curves *curves = NULL;
+  int32_t n = 0;
+  (void)state;
+  make_join(patch, data, &surface);
+  assert_int_equal(
+      fs_plot_trace(&ctx, fs_plot_find("isophotes"), &surface, param, &(fs_trace_options){.tolerance = 1e-8}, &curves),
+      FS_OK);
+  for (int32_t i = 0; i < curves->n_points; i++) {
+    const fs_curve_point *p = &curves->point[i];
+    if (i == 0 || i + 1 == curves->n_points || fabs(p->position.x) > 1e-12) continue;
+    if (!(p[-1].position.x * p[1].position.x < 0) || p->place.patch == p[1].place.patch) continue;
+    double before = (p->position.y - p[-1].position.y) / (p->position.x - p[-1].position.x);
+    double after = (p[1].position.y - p->position.y) / (p[1].position.x - p->position.x);
+    double ratio = p[-1].position.x < 0 ? after / before : before / after;
+    assert_true(fabs(ratio - 2) < 5e-3);
+    n++;
+  }
+  assert_true(n >= 4);
+  fs_curves_free(&ctx, curves);
+}
+
+/* The Gregory patches over a mesh are G1, our surface over it is G2: only the isophotes of the first have kinks. */
+static void test_isophotes_of_caps(void **state) {
+  fs_context ctx = test_context();
+  fs_mesh *mesh = test_star(5, 3);
+  fs_space *space = NULL;
+  fs_surface *surface[2] = {NULL, NULL};
+  double param[3] = {60, 30, 60};
+  int32_t n_sides[2], n_kinks[2];
+  (void)state;
+  assert_int_equal(fs_space_create(&ctx, mesh, &space), FS_OK);
+  assert_int_equal(fs_surface_create(&ctx, space, space->start, &surface[0]), FS_OK);
+  assert_int_equal(
+      fs_construct(&ctx, fs_construction_find("gregory"), &(fs_construction_input){.mesh = mesh}, NULL, &surface[1]),
+      FS_OK);
+  for (int k = 0; k < 2; k++) {
+    fs_curves *curves = NULL;
+    assert_int_equal(fs_plot_trace(&ctx, fs_plot_find("isophotes"), surface[k], param,
+                                   &(fs_trace_options){.tolerance = 2e-6, .n_cells = 3}, &curves),
+                     FS_OK);
+    count_kinks(curves, &n_sides[k], &n_kinks[k]);
+    assert_true(n_sides[k] > 10);
+    fs_curves_free(&ctx, curves);
+    fs_surface_free(&ctx, surface[k]);
+  }
+  print_message("isophotes with kinks: %d of %d on the G2 surface, %d of %d on the G1 surface\n", n_kinks[0],
+                n_sides[0], n_kinks[1], n_sides[1]);
+  assert_int_equal(n_kinks[0], 0);
+  assert_true(n_kinks[1] > n_sides[1] / 2);
+  fs_space_free(&ctx, space);
+  fs_mesh_free(&ctx, mesh);
+  fs_context_clear(&ctx);
+}
+
+static void test_every_allocation_may_fail(void **state) {
+  fs_patch patch[4];
+  double data[192];
+  fs_surface surface;
+  (void)state;
+  make_graph((graph){0.1, -0.3}, patch, data, &surface);
+  for (int32_t i = 0; fs_plots[i] != NULL; i++) {
+    const fs_param *list = fs_plots[i]->params;
+    double param[16]; /* as few lines as show everything */
+    for (int32_t k = 0; list[k].name != NULL; k++)
+      param[k] = strcmp(list[k].name, "count") == 0 ? 3 : strcmp(list[k].name, "spacing") == 0 ? 0.2 : list[k].initial;
+    for (int64_t n = 1;; n++) {
+      struct test_memory memory = {.fail_at = n};
+      fs_context ctx = test_memory_context(&memory);
+      fs_curves *curves = NULL;
+      fs_status status = fs_plot_trace(&ctx, fs_plots[i], &surface, param,
+                                       &(fs_trace_options){.tolerance = 0.1, .n_cells = 2}, &curves);
+      if (status == FS_OK) fs_curves_free(&ctx, curves);
+      assert_int_equal(memory.n_live, 0);
+      if (status == FS_OK) break;
+      assert_int_equal(status, FS_ERR_MEMORY);
+      assert_null(curves);
+    }
+  }
 }
 
 static void test_refusals(void **state) {
@@ -223,9 +332,15 @@ static void test_refusals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_isophotes),       cmocka_unit_test(test_mean_curvature),
-      cmocka_unit_test(test_curvature_lines), cmocka_unit_test(test_sections),
-      cmocka_unit_test(test_umbilics),        cmocka_unit_test(test_section_shows_jump),
+      cmocka_unit_test(test_isophotes),
+      cmocka_unit_test(test_mean_curvature),
+      cmocka_unit_test(test_curvature_lines),
+      cmocka_unit_test(test_sections),
+      cmocka_unit_test(test_umbilics),
+      cmocka_unit_test(test_section_shows_jump),
+      cmocka_unit_test(test_isophotes_show_join),
+      cmocka_unit_test(test_isophotes_of_caps),
+      cmocka_unit_test(test_every_allocation_may_fail),
       cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
