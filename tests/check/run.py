@@ -186,6 +186,12 @@ def test_command(arguments):
     found = check(arguments, fair, "--compare", star)["compared"]
     need(found["S"] < 1 and found["largest_distance"] > 0, f"fairing gives S times {found['S']}")
 
+    # the surface that a construction makes, not what a file of patches keeps of it
+    for name, words in (("blob.obj", ("stacho",)), ("lantern.obj", ("gregory", "--edge-rule", "pn"))):
+        found = check(arguments, SAMPLES / ".." / "patches" / name, "--construction", *words, "--require", "g1",
+                      "--tolerance", "1e-10")
+        need(found["max"]["position"] <= 1e-12 and found["max"]["curvature"] > 1e-3, f"{name}: {found['max']}")
+
     # colours: log10 of the jumps at the edges, -16 inside
     ply, glb = arguments.out / "jumps.ply", arguments.out / "jumps.glb"
     found = check(arguments, star, "--require", "g3", "-o", ply, "-o", glb, expected=FAILED)

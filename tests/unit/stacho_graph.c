@@ -148,7 +148,7 @@ static void check_alpha(const fs_surface *s, const fs_mesh *mesh, const double *
       double b = mesh->position[j].z - 0.4 * (A[2 * j] * dx + A[2 * j + 1] * dy), alpha;
       e[k] = 1;
       alpha = (s->data[s->patch[p].data_start + 3 * (size_t)fs_triangle_at(e) + 2] - b) / (a - b);
-      vectors_agree("alpha", 1, &alpha, &theirs[3 * p + k], 1e-11);
+      vectors_agree("alpha", 1, &alpha, &theirs[3 * p + k], 1e-12);
     }
 }
 

@@ -149,7 +149,7 @@ static void compare_correction(const cJSON *result, const fs_surface *s) {
     double V[4][3], back[4][3], t = atof(at[i]);
     fs_stacho_correction(block, n, t, V);
     fs_stacho_correction(reversed, n, 1 - t, back);
-    vectors_compare(vectors_item(result, "V_at"), at[i], 9, V[0], 1e-10);
+    vectors_compare(vectors_item(result, "V_at"), at[i], 9, V[0], 1e-12);
     vectors_agree("V from the other side", 3, back[0], V[0], 1e-13);
   }
 }
