@@ -304,6 +304,40 @@ static inline void blocks_from_reduced(lanes (*J)[N_S], lanes (*K)[N_S], const l
     }
 }
 
+/* df = sum_k a_k ds_k/dp. The triple products with p_u and p_v share p_u x p_v: x . n has the derivatives n by x, p_v x x by
+   p_u and x x p_u by p_v, and the last two are taken once, for the sum of all such x. */
+static inline void gradient(const lanes (*p)[3], const lanes *n, const lanes *a, lanes (*df)[3]) {
+  lanes x[3] = {{0}};
+  memset(df, 0, sizeof(lanes[N_DERIVATIVES][3]));
+  for (int t = 0; t < N_PRODUCTS; t++) {
+    product q = products[t];
+    lanes scale = (double)q.weight * a[q.k];
+    for (int i = 0; i < 3; i++) {
+      df[q.x][i] += scale * p[q.y][i];
+      df[q.y][i] += scale * p[q.x][i];
+    }
+  }
+  for (int t = 0; t < N_TRIPLES; t++) {
+    triple q = triples[t];
+    bool is_normal = q.y == D_U && q.z == D_V;
+    lanes scaled[3], by_x[3];
+    lanes_scale(scaled, a[q.k], p[q.x]);
+    if (is_normal) {
+      for (int i = 0; i < 3; i++) {
+        x[i] += scaled[i];
+        df[q.x][i] += a[q.k] * n[i];
+      }
+      continue;
+    }
+    lanes_cross(by_x, p[q.y], p[q.z]);
+    for (int i = 0; i < 3; i++) df[q.x][i] += a[q.k] * by_x[i];
+    lanes_add_cross(df[q.y], p[q.z], scaled);
+    lanes_add_cross(df[q.z], scaled, p[q.y]);
+  }
+  lanes_add_cross(df[D_U], p[D_V], x);
+  lanes_add_cross(df[D_V], x, p[D_U]);
+}
+
 static inline void evaluate(const lanes (*p)[3], lanes *f, lanes (*df)[3], lanes (*ddf)[9]) {
   lanes n[3], s[N_S], J[N_REDUCED][N_S], J9[N_REDUCED][N_R], X[N_R], K[N_REDUCED][N_S], x1s[N_S];
   int order = ddf != NULL ? 2 : df != NULL ? 1 : 0;
@@ -314,18 +348,11 @@ static inline void evaluate(const lanes (*p)[3], lanes *f, lanes (*df)[3], lanes
   *f = o.f;
   if (order < 1) return;
 
-  jacobian(p, n, J);
   r_transposed_times(s, o.x1, x1s);
-  for (int m = 0; m < N_REDUCED; m++) {
-    lanes g = {0};
-    for (int k = 0; k < N_S; k++) g += x1s[k] * J[m][k];
-    if (m < N_FULL)
-      df[m / 3][m % 3] = g;
-    else
-      lanes_scale(df[D_UUU + m - N_FULL], g, n);
-  }
+  gradient(p, n, x1s, df);
   if (order < 2) return;
 
+  jacobian(p, n, J);
   for (int m = 0; m < N_REDUCED; m++) r_times(s, J[m], J9[m]);
   for (int m = 0; m < N_REDUCED; m++) {
     for (int i = 0; i < N_R; i++) {
