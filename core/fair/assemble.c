@@ -60,6 +60,8 @@ static void add_block(const fs_problem *p, const fs_basis_table *table, int32_t 
                       fs_element_result *result) {
   const double *by_dof = table->by_dof + (size_t)block * N * table->n_dofs * B;
   bool is_first = true;
+  int n = table->n_nodes * table->n_nodes - block * B; /* points; those beyond repeat the last one without weight */
+  if (n > B) n = B;
   p->kernels->jets(table->n_dofs, by_dof, s->c, s->x);
   for (int32_t t = 0; t < p->n_terms; t++) {
     const fs_density *density = p->term[t];
@@ -67,21 +69,24 @@ static void add_block(const fs_problem *p, const fs_basis_table *table, int32_t 
     const double *weight = (on_chart ? table->chart_weight : table->weight) + block * B;
     const double *inverse = on_chart ? table->inverse + (size_t)block * N * N * B : NULL;
     fs_order wanted = p->weight[t] != 0 ? order : FS_VALUE; /* a term without weight is only measured */
+    bool is_added = p->sum[t] != NULL && !on_chart;
     double scale[B];
+    for (int l = 0; l < B; l++) scale[l] = p->weight[t] * weight[l];
     if (on_chart) p->kernels->to_chart(inverse, s->x, s->z);
-    density->evaluate(on_chart ? s->z : s->x, s->f, wanted >= FS_GRADIENT ? s->df : NULL,
-                      wanted >= FS_HESSIAN ? s->ddf : NULL);
-    for (int l = 0; l < B; l++) {
-      if (weight[l] != 0) result->integral[t] += weight[l] * s->f[l];
-      scale[l] = p->weight[t] * weight[l];
-    }
+    if (is_added)
+      p->sum[t](s->x, scale, n, is_first, s->f, wanted >= FS_GRADIENT ? s->sum_df : NULL,
+                wanted >= FS_HESSIAN ? s->sum_ddf : NULL);
+    else
+      density->evaluate(on_chart ? s->z : s->x, s->f, wanted >= FS_GRADIENT ? s->df : NULL,
+                        wanted >= FS_HESSIAN ? s->ddf : NULL);
+    for (int l = 0; l < n; l++) result->integral[t] += weight[l] * s->f[l];
     if (wanted == FS_VALUE) continue;
-    widen(density->order, wanted, s);
+    if (!is_added) widen(density->order, wanted, s);
     if (on_chart) {
       if (is_first) memset(s->sum_df, 0, sizeof s->sum_df);
       if (is_first && wanted >= FS_HESSIAN) memset(s->sum_ddf, 0, sizeof s->sum_ddf);
       p->kernels->add_from_chart(inverse, scale, s->df, wanted >= FS_HESSIAN ? s->ddf : NULL, s->sum_df, s->sum_ddf);
-    } else {
+    } else if (!is_added) {
       add_density(p->kernels, density, wanted, scale, is_first, s);
     }
     is_first = false;

@@ -376,6 +376,4 @@ static inline void evaluate(const lanes (*p)[3], lanes *f, lanes (*df)[3], lanes
   }
 }
 
-void FS_KERNEL(fs_curvature_variation)(const double *x, double *f, double *df, double *ddf) {
-  fs_density_by_lanes(x, f, df, ddf, evaluate);
-}
+FS_DENSITY_KERNELS(curvature_variation, 0, evaluate)

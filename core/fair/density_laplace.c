@@ -123,10 +123,5 @@ static inline void tangential(const lanes (*p)[3], lanes *f, lanes (*df)[3], lan
   out[7] -= by_n[0];
 }
 
-void FS_KERNEL(fs_triharmonic)(const double *x, double *f, double *df, double *ddf) {
-  fs_density_by_lanes(x, f, df, ddf, harmonic);
-}
-
-void FS_KERNEL(fs_tangential)(const double *x, double *f, double *df, double *ddf) {
-  fs_density_by_lanes(x, f, df, ddf, tangential);
-}
+FS_DENSITY_KERNELS(triharmonic, ~(FS_PAIRS_TRIHARMONIC), harmonic)
+FS_DENSITY_KERNELS(tangential, ~(FS_PAIRS_TANGENTIAL), tangential)

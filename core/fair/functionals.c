@@ -18,12 +18,6 @@ static void triharmonic(const double *x, double *f, double *df, double *ddf) {
   fs_kernels_choose()->triharmonic(x, f, df, ddf);
 }
 
-/* Pairs of second derivatives that can differ from zero: those of p_uuu + p_uvv, of p_uuv + p_vvv, and with p_u, p_v. */
-#define PAIR(i, j) (UINT64_C(1) << ((i)*9 - (i) * ((i)-1) / 2 + (j) - (i)))
-#define OF_SUMS (PAIR(5, 5) | PAIR(5, 7) | PAIR(7, 7) | PAIR(6, 6) | PAIR(6, 8) | PAIR(8, 8))
-#define WITH(i) (PAIR(i, 5) | PAIR(i, 6) | PAIR(i, 7) | PAIR(i, 8))
-#define OF_NORMAL (PAIR(0, 0) | PAIR(0, 1) | PAIR(1, 1) | WITH(0) | WITH(1))
-
 const fs_density fs_density_curvature_variation = {.name = "curvature-variation",
                                                    .summary = "|grad_M H|^2 dM, H = mean curvature",
                                                    .order = 3,
@@ -33,13 +27,13 @@ const fs_density fs_density_tangential = {.name = "tangential",
                                           .summary =
                                               "tangential part of |grad Laplace p|^2: keeps the parametrisation even",
                                           .order = 3,
-                                          .zero_pairs = ~(OF_SUMS | OF_NORMAL),
+                                          .zero_pairs = ~(FS_PAIRS_TANGENTIAL),
                                           .evaluate = tangential};
 const fs_density fs_density_triharmonic = {.name = "triharmonic",
                                            .summary = "|grad Laplace p|^2",
                                            .order = 3,
                                            .is_quadratic = true,
-                                           .zero_pairs = ~OF_SUMS,
+                                           .zero_pairs = ~(FS_PAIRS_TRIHARMONIC),
                                            .evaluate = triharmonic};
 
 const fs_density fs_density_thin_plate = {.name = "thin-plate",

@@ -28,9 +28,14 @@ typedef struct fs_tensor {
 } fs_tensor;
 
 typedef void fs_density_kernel(const double *x, double *f, double *df, double *ddf);
+/* A density added to a sum of densities: f[block] = its values, df and ddf (+)= scale[block] * its derivatives; is_first: they
+   are stored, not added. Only the first n points of the block count: those beyond get 0, not computed where vectors allow. */
+typedef void fs_sum_kernel(const double *x, const double *scale, int n, bool is_first, double *f, double *df,
+                           double *ddf);
 typedef struct fs_kernels {
   const char *name;
   fs_density_kernel *curvature_variation, *tangential, *triharmonic;
+  fs_sum_kernel *sum_curvature_variation, *sum_tangential, *sum_triharmonic;
   void (*jets)(int32_t m, const double *table, const double *c, double *x);
   void (*gradient)(int32_t m, const double *table, const double *df, double *g);
   void (*hessian)(int32_t m_padded, const double *by_point, const double *ddf, double *h);
@@ -43,27 +48,67 @@ typedef struct fs_kernels {
                          double *sum_df, double *sum_ddf);
 } fs_kernels;
 
+/* Of the densities whose derivatives by (u, v) are added without further ado; NULL: has none. */
+fs_sum_kernel *fs_kernels_sum_of(const fs_kernels *kernels, const fs_density *density);
+
+/* Second derivatives that can differ from zero, as bits of pairs: those of p_uuu + p_uvv and p_uuv + p_vvv, and with the
+   normal. */
+#define FS_PAIR(i, j) (UINT64_C(1) << ((i)*9 - (i) * ((i)-1) / 2 + (j) - (i)))
+#define FS_PAIRS_WITH(i) (FS_PAIR(i, 5) | FS_PAIR(i, 6) | FS_PAIR(i, 7) | FS_PAIR(i, 8))
+#define FS_PAIRS_TRIHARMONIC \
+  (FS_PAIR(5, 5) | FS_PAIR(5, 7) | FS_PAIR(7, 7) | FS_PAIR(6, 6) | FS_PAIR(6, 8) | FS_PAIR(8, 8))
+#define FS_PAIRS_TANGENTIAL \
+  (FS_PAIRS_TRIHARMONIC | FS_PAIR(0, 0) | FS_PAIR(0, 1) | FS_PAIR(1, 1) | FS_PAIRS_WITH(0) | FS_PAIRS_WITH(1))
+
 /* The best set for this processor. */
 const fs_kernels *fs_kernels_choose(void);
 /* All sets that this processor can run, the best first, for tests; ends with NULL. */
 int32_t fs_kernels_all(const fs_kernels *all[4]);
 
 #ifdef FS_FAIR_LANES_H
-/* Runs a kernel for vectors of points over the block: moves the arrays of fs_density to vectors and back. */
+/* What both kinds of kernels are made of: a function of vectors of points, run over the block. zero: bit (pair) says that these
+   second derivatives always vanish. */
 typedef void fs_lanes_kernel(const lanes (*p)[3], lanes *f, lanes (*df)[3], lanes (*ddf)[9]);
-static inline __attribute__((always_inline)) void fs_density_by_lanes(const double *x, double *f, double *df,
-                                                                      double *ddf, fs_lanes_kernel *kernel) {
+static inline __attribute__((always_inline)) void fs_sum_by_lanes(const double *x, const double *scale, int n,
+                                                                  bool is_first, uint64_t zero, double *f, double *df,
+                                                                  double *ddf, fs_lanes_kernel *kernel) {
   lanes p[N_DERIVATIVES][3], value, first[N_DERIVATIVES][3], second[N_PAIRS][9];
   for (int l = 0; l < FS_BLOCK; l += FS_LANES) {
+    lanes factor = lanes_load(scale + l);
+    if (l >= n) {
+      lanes_store(f + l, (lanes){0});
+      for (int i = 0; i < 3 * N_DERIVATIVES && df != NULL && is_first; i++)
+        lanes_store(df + i * FS_BLOCK + l, (lanes){0});
+      for (int i = 0; i < 9 * N_PAIRS && ddf != NULL && is_first; i++) lanes_store(ddf + i * FS_BLOCK + l, (lanes){0});
+      continue;
+    }
     for (int i = 0; i < 3 * N_DERIVATIVES; i++) p[i / 3][i % 3] = lanes_load(x + i * FS_BLOCK + l);
     kernel((const lanes(*)[3])p, &value, df != NULL ? first : NULL, ddf != NULL ? second : NULL);
     lanes_store(f + l, value);
-    if (df != NULL)
-      for (int i = 0; i < 3 * N_DERIVATIVES; i++) lanes_store(df + i * FS_BLOCK + l, first[i / 3][i % 3]);
-    if (ddf != NULL)
-      for (int i = 0; i < 9 * N_PAIRS; i++) lanes_store(ddf + i * FS_BLOCK + l, second[i / 9][i % 9]);
+    for (int i = 0; i < 3 * N_DERIVATIVES && df != NULL; i++) {
+      double *to = df + i * FS_BLOCK + l;
+      lanes_store(to, factor * first[i / 3][i % 3] + (is_first ? (lanes){0} : lanes_load(to)));
+    }
+    if (ddf == NULL) continue;
+    for (int pair = 0; pair < N_PAIRS; pair++) {
+      double *to = ddf + (size_t)pair * 9 * FS_BLOCK + l;
+      if (!is_first && (zero >> pair & 1)) continue;
+      for (int i = 0; i < 9; i++, to += FS_BLOCK)
+        lanes_store(to, is_first ? factor * second[pair][i] : factor * second[pair][i] + lanes_load(to));
+    }
   }
 }
+
+/* Defines the two kernels of a density. */
+#define FS_DENSITY_KERNELS(name, zero, kernel)                                                                     \
+  void FS_KERNEL(fs_sum_##name)(const double *x, const double *scale, int n, bool is_first, double *f, double *df, \
+                                double *ddf) {                                                                     \
+    fs_sum_by_lanes(x, scale, n, is_first, zero, f, df, ddf, kernel);                                              \
+  }                                                                                                                \
+  void FS_KERNEL(fs_##name)(const double *x, double *f, double *df, double *ddf) {                                 \
+    static const double one[FS_BLOCK] = {1, 1, 1, 1, 1, 1, 1, 1};                                                  \
+    FS_KERNEL(fs_sum_##name)(x, one, FS_BLOCK, true, f, df, ddf);                                                  \
+  }
 #endif
 
 #endif

@@ -177,6 +177,7 @@ fs_status fs_problem_create(fs_context *ctx, const fs_space *space, int32_t n_te
   p->kernels = fs_kernels_choose();
   for (int32_t t = 0; t < n_terms; t++) {
     p->term[t] = term[t];
+    p->sum[t] = fs_kernels_sum_of(p->kernels, term[t]);
     if (term[t]->order < 1 || term[t]->order > 3 || term[t]->order > space->continuity + 1) {
       status =
           fs_fail(ctx, FS_ERR_UNSUPPORTED, "the density %s of order %d needs contact of order %d, the space has %d",

@@ -27,6 +27,7 @@ typedef struct fs_problem {
   const fs_space *space;
   int32_t n_terms;
   const fs_density *term[FS_MAX_TERMS + 2];
+  fs_sum_kernel *sum[FS_MAX_TERMS + 2]; /* that adds the term by (u, v), or NULL */
   double weight[FS_MAX_TERMS + 2];
   const fs_kernels *kernels;
   int32_t

@@ -137,6 +137,43 @@ static void test_derivatives(void **state) {
   }
 }
 
+/* Sums of densities against the densities, with fewer points than a block holds too. */
+static void check_sum(fs_sum_kernel *first, fs_density_kernel *a, fs_sum_kernel *second, fs_density_kernel *b, int n) {
+  static double x[N * 3 * B], f[3][B], df[3][N * 3 * B], ddf[3][45 * 9 * B];
+  const double scale[B] = {1, 0.5, 2, 3, 0.25, 7, 1.5, 0.1};
+  uint64_t seed = 11;
+  random_jets(&seed, x);
+  memset(df[0], 255, sizeof df[0]); /* not numbers */
+  memset(ddf[0], 255, sizeof ddf[0]);
+  a(x, f[1], df[1], ddf[1]);
+  b(x, f[2], df[2], ddf[2]);
+  first(x, scale, n, true, f[0], df[0], ddf[0]);
+  for (int l = 0; l < n; l++) assert_true(f[0][l] == f[1][l]);
+  second(x, scale, n, false, f[0], df[0], ddf[0]);
+  for (int l = 0; l < n; l++) assert_true(f[0][l] == f[2][l]);
+  for (int i = 0; i < N * 3 * B; i++) {
+    double expected = scale[i % B] * (df[1][i] + df[2][i]);
+    assert_true(i % B >= n ? isfinite(df[0][i]) : fabs(df[0][i] - expected) <= 1e-13 * (1 + fabs(expected)));
+  }
+  for (int i = 0; i < 45 * 9 * B; i++) {
+    double expected = scale[i % B] * (ddf[1][i] + ddf[2][i]);
+    assert_true(i % B >= n ? isfinite(ddf[0][i]) : fabs(ddf[0][i] - expected) <= 1e-13 * (1 + fabs(expected)));
+  }
+}
+
+static void test_sums(void **state) {
+  const fs_kernels *all[4];
+  int32_t n_sets = fs_kernels_all(all);
+  (void)state;
+  for (int32_t i = 0; i < n_sets; i++)
+    for (int n = 1; n <= B; n++) {
+      const fs_kernels *k = all[i];
+      check_sum(k->sum_curvature_variation, k->curvature_variation, k->sum_tangential, k->tangential, n);
+      check_sum(k->sum_tangential, k->tangential, k->sum_triharmonic, k->triharmonic, n);
+      check_sum(k->sum_triharmonic, k->triharmonic, k->sum_curvature_variation, k->curvature_variation, n);
+    }
+}
+
 /* Q by its definition: |a|^2 + |b|^2 - (n.a)^2 - (n.b)^2 with the unit normal. */
 static void test_tangential_definition(void **state) {
   double x[N * 3 * B], f[B];
@@ -223,8 +260,11 @@ static void test_contractions(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_graphs),       cmocka_unit_test(test_tori),
-      cmocka_unit_test(test_derivatives),  cmocka_unit_test(test_tangential_definition),
+      cmocka_unit_test(test_graphs),
+      cmocka_unit_test(test_tori),
+      cmocka_unit_test(test_derivatives),
+      cmocka_unit_test(test_sums),
+      cmocka_unit_test(test_tangential_definition),
       cmocka_unit_test(test_contractions),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
