@@ -160,7 +160,7 @@ done:
 static fs_status leave_saddle(course *c, const fs_objective *objective, double tolerance, bool *has_moved) {
   fs_status status = FS_OK;
   fs_saddle_report saddle = {0};
-  c->setup.n_cheap_hessians = 0;
+  c->setup.has_near_hessians = false;
   c->damping = (fs_damping){0};
   FS_TRY(fs_leave_saddle(c->ctx, objective, &c->damping.nu, c->x, &saddle));
   c->report->n_hessians++;
@@ -175,7 +175,8 @@ static fs_status run_stage(course *c, const fs_stage *stage, bool *is_over) {
   fs_status status = FS_OK;
   fs_objective objective;
   bool has_moved = true;
-  c->setup.n_cheap_hessians = stage->is_last && stage->level == 0;
+  c->setup.has_near_hessians = stage->level == 0;
+  c->setup.n_cheap_hessians = 1;
   c->setup.param[0] = stage->C;
   FS_TRY(fs_problem_set_level(c->setup.problem, stage->level));
   FS_TRY(enter_depth(c, stage->depth));

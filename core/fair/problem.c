@@ -146,9 +146,10 @@ done:
 /* Far from the end fewer nodes do; extra dofs of caps would exploit a rule that is too coarse. */
 static int32_t nodes_of(const fs_problem *p, const fs_extraction *x, int32_t level) {
   int32_t n = x->valence == 4 ? p->n_nodes_square : p->n_nodes_cap;
-  if (level == 0) return n;
-  int32_t few = x->valence == 4 ? (level == 1 ? 4 : 2) : 10;
-  return few < n ? few : n;
+  static const int32_t most_square[FS_N_NODES] = {INT32_MAX, 4, 2, 6},
+                       most_cap[FS_N_NODES] = {INT32_MAX, 10, 10, INT32_MAX};
+  int32_t most = x->valence == 4 ? most_square[level] : most_cap[level];
+  return n < most ? n : most;
 }
 
 fs_status fs_problem_set_level(fs_problem *p, int32_t level) {
@@ -202,7 +203,7 @@ done:
 
 void fs_problem_free(fs_context *ctx, fs_problem *p) {
   if (p == NULL) return;
-  for (int level = 0; level < 3; level++) {
+  for (int level = 0; level < FS_N_NODES; level++) {
     for (int32_t i = 0; p->tables[level] != NULL && i < p->space->n_extractions; i++)
       fs_basis_free(ctx, p->tables[level][i]);
     fs_release(ctx, p->tables[level]);

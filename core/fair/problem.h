@@ -22,6 +22,10 @@ typedef struct fs_element_result {
   int32_t *list, *place; /* [n_list] ascending, and the rows of hessian or reduced where they stand */
 } fs_element_result;
 
+/* How many quadrature nodes: all; few, for steps far from the end; still fewer, for displacements of coarser meshes; and nearly
+   all, for the Hessians of the last steps, whose gradients see all. */
+enum { FS_NODES_ALL, FS_NODES_FEW, FS_NODES_LEAST, FS_NODES_NEARLY_ALL, FS_N_NODES };
+
 typedef struct fs_problem {
   fs_context *ctx;
   const fs_space *space;
@@ -30,9 +34,8 @@ typedef struct fs_problem {
   fs_sum_kernel *sum[FS_MAX_TERMS + 2]; /* that adds the term by (u, v), or NULL */
   double weight[FS_MAX_TERMS + 2];
   const fs_kernels *kernels;
-  int32_t
-      level; /* 0: all nodes; 1: few, for steps far from the end; 2: still fewer, for displacements of coarser meshes */
-  fs_basis_table **tables[3], **table; /* [space->n_extractions] each; table: those of the level */
+  int32_t level;                                /* one of fs_nodes */
+  fs_basis_table **tables[FS_N_NODES], **table; /* [space->n_extractions] each; table: those of the level */
   int32_t n_nodes_square, n_nodes_cap;
   int32_t n_free;
   int32_t *unknown;              /* [n_dofs] number among the free dofs, or FS_NONE */
@@ -51,7 +54,7 @@ fs_status fs_problem_create(fs_context *ctx, const fs_space *space, int32_t n_te
                             const bool *fixed, int32_t n_nodes_square, int32_t n_nodes_cap, const fs_vec3 *c,
                             fs_problem **problem);
 
-/* Changes the quadrature; the tables of levels 1 and 2 are made at first use. */
+/* Changes the quadrature; the tables of other levels than 0 are made at first use. */
 fs_status fs_problem_set_level(fs_problem *problem, int32_t level);
 void fs_problem_free(fs_context *ctx, fs_problem *problem); /* NULL is allowed */
 

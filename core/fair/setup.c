@@ -190,15 +190,15 @@ done:
 static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, double *g, fs_sparse *hessian) {
   fs_status status = FS_OK;
   double integral[FS_MAX_TERMS + 2];
-  bool is_reduced = s->reduction != NULL, is_cheap = order == FS_HESSIAN && s->n_cheap_hessians > 0;
+  bool is_reduced = s->reduction != NULL;
   bool is_after = is_reduced && s->problem->reduction == NULL; /* else elements are reduced one by one */
   int32_t level = s->problem->level;
   double *full_g = g;
   fs_sparse *full_hessian = hessian;
   fs_setup_place(s, x);
-  if (is_cheap) {
+  if (order == FS_HESSIAN && level == FS_NODES_ALL && s->has_near_hessians) {
+    FS_TRY(fs_problem_set_level(s->problem, s->n_cheap_hessians > 0 ? FS_NODES_FEW : FS_NODES_NEARLY_ALL));
     s->n_cheap_hessians--;
-    FS_TRY(fs_problem_set_level(s->problem, 1));
   }
   FS_TRY(fs_progress(s->problem->ctx, "fairing", 0));
   if (is_reduced) full_g = s->g;
@@ -209,7 +209,7 @@ static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, dou
   if (is_after && order >= FS_HESSIAN)
     FS_TRY(fs_reduction_hessian(s->problem->ctx, s->reduction, s->problem->pattern, hessian));
 done:
-  if (is_cheap && s->problem->tables[level] != NULL) s->problem->table = s->problem->tables[s->problem->level = level];
+  if (s->problem->level != level) s->problem->table = s->problem->tables[s->problem->level = level];
   return status;
 }
 

@@ -19,9 +19,10 @@ typedef struct fs_setup {
   int32_t term_S, term_Q, term_A; /* numbers of these terms; term_A: FS_NONE where the functional has no area */
   fs_reduction *reduction;        /* of the free dofs to fewer unknowns; NULL: the unknowns are the free dofs */
   fs_sparse *reduced;             /* pattern of their Hessian */
-  int32_t
-      n_cheap_hessians; /* so many Hessians are integrated with few nodes, although the functional sees all: near enough
-                               for steps that are corrected by gradients */
+  /* Where the functional sees all nodes, Hessians may be integrated with fewer, since gradients correct the steps: so many with
+     few nodes, and those after them with nearly all. */
+  bool has_near_hessians;
+  int32_t n_cheap_hessians;
   fs_volume *volume; /* where it is kept, V^(2/3) times volume_factor stands for the area in the functional; or NULL */
   double volume_sign, volume_factor;
   fs_wall *wall; /* added to the functional; or NULL */

@@ -103,9 +103,10 @@ done:
 }
 
 static void lower_damping(state *t, double gain) {
-  if (fabs(gain - 1) < 0.002)
+  if (fabs(gain - 1) < 0.002) { /* the model is right: what failed was elsewhere */
     t->nu *= 1e-4;
-  else if (gain > 0.9)
+    t->nu_failed *= 1e-3;
+  } else if (gain > 0.9)
     t->nu *= 0.01;
   else if (gain > 0.75)
     t->nu *= 0.1;
