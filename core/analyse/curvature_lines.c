@@ -2,7 +2,7 @@
 /* Single role: lines of curvature that cover a surface evenly.
 
    A line is followed both ways from a seed until it meets a border or an umbilic, closes, or comes closer than half the
-   spacing to another line of its family. New seeds lie one spacing beside each line, reached along the other family, and
+   spacing to another line of its family or to itself. New seeds lie one spacing beside each line, reached along the other family, and
    count when no line is nearer than 0.9 of the spacing [after Jobard and Lefer 1997]. The first seeds are the middles of
    patches. Nearness is looked up in a hash of cells with the size of the spacing; points whose normals differ by more than a
    right angle are other sheets of the surface. */
@@ -14,7 +14,6 @@
 typedef struct sample {
   fs_vec3 position, normal;
   int32_t line, next; /* next sample of the hash chain, or FS_NONE */
-  double arc;         /* along the line */
 } sample;
 
 typedef struct cover {
@@ -30,7 +29,7 @@ typedef struct cover {
   int32_t n_way[2], way_room[2];
 } cover;
 
-enum { N_HEADS = 1 << 14, MAX_STEPS = 100000 };
+enum { N_HEADS = 1 << 14, MAX_STEPS = 20000 };
 
 static int32_t hash_of(int64_t x, int64_t y, int64_t z) {
   uint64_t h = (uint64_t)x * 73856093u ^ (uint64_t)y * 19349663u ^ (uint64_t)z * 83492791u;
@@ -49,7 +48,7 @@ static fs_status grow(fs_context *ctx, void **block, int32_t n, int32_t *room, s
   return FS_OK;
 }
 
-/* Whether a sample of another line (or, of this line, one at least a turn away in arc) is within reach. */
+/* Whether a sample of another line is within reach. */
 static bool is_near(const cover *c, fs_vec3 p, fs_vec3 normal, double reach, int32_t line) {
   int64_t x = (int64_t)floor(p.x / c->spacing), y = (int64_t)floor(p.y / c->spacing),
           z = (int64_t)floor(p.z / c->spacing);
@@ -94,6 +93,29 @@ static fs_status add_way(cover *c, int side, const fs_walker *w) {
   return status;
 }
 
+/* A point that the walker has just passed; those before it are left for the line to close. */
+static bool is_beside(const cover *c, const fs_walker *w, const fs_curve_point *p) {
+  fs_vec3 d = fs_vec3_sub(p->position, w->position);
+  double along = fs_vec3_dot(d, w->direction), square = fs_vec3_dot(d, d);
+  return square < 0.25 * c->spacing * c->spacing && along <= 0 && along > -0.25 * c->spacing &&
+         fs_vec3_dot(p->normal, w->normal) > 0;
+}
+
+/* Whether a line has wound around and runs beside itself; arc: of this way so far. Its last three spacings do not count. */
+static bool is_spiral(const cover *c, const fs_walker *w, int side, double arc) {
+  double since = 0;
+  for (int32_t i = c->n_way[side] - 1; i > 0; i--) {
+    since += fs_vec3_distance(c->way[side][i].position, c->way[side][i - 1].position);
+    if (since > 3 * c->spacing && is_beside(c, w, &c->way[side][i - 1])) return true;
+  }
+  since = arc;
+  for (int32_t i = 1; side == 1 && i < c->n_way[0]; i++) {
+    since += fs_vec3_distance(c->way[0][i].position, c->way[0][i - 1].position);
+    if (since > 3 * c->spacing && is_beside(c, w, &c->way[0][i])) return true;
+  }
+  return false;
+}
+
 /* One of the two ways from the seed. is_closed: it came back to the seed. */
 static fs_status walk_way(cover *c, const fs_walker *seed, int side, bool *is_closed) {
   fs_status status = FS_OK;
@@ -117,6 +139,7 @@ static fs_status walk_way(cover *c, const fs_walker *seed, int side, bool *is_cl
       *is_closed = true;
       break;
     }
+    if (is_spiral(c, &w, side, arc)) break;
     FS_TRY(add_way(c, side, &w));
     if (end == FS_WALK_BORDER) break;
   }
@@ -133,7 +156,7 @@ static fs_status seed_beside(cover *c, const fs_curve_point *p) {
     fs_walk_end end = FS_WALK_GOES_ON;
     if (!fs_walker_start(&w, p->place, (fs_vec3){0})) return FS_OK;
     if (side == 1) w.direction = fs_vec3_scale(w.direction, -1);
-    while (left > 1e-6 * c->spacing && end == FS_WALK_GOES_ON) {
+    while (left > 1e-3 * c->spacing && end == FS_WALK_GOES_ON) {
       double done = 0;
       length = fmin(length, left);
       end = fs_walker_step(&w, &length, &done);

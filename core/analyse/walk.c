@@ -93,7 +93,8 @@ static fs_walk_end cross(fs_walker *w, const double uv[2]) {
 fs_walk_end fs_walker_step(fs_walker *w, double *length, double *done) {
   double h = *length, to[2], error[2], e, inside = 0, beyond;
   for (int k = 0;; k++) {
-    if (k == MAX_TRIES) return FS_WALK_UMBILIC;
+    /* steps that must be shorter than the error they may have: directions turn without limit */
+    if (k == MAX_TRIES || (k > 0 && h < 0.01 * w->tolerance)) return FS_WALK_UMBILIC;
     if (!try_step(w, h, to, error)) {
       h /= 2;
       continue;
@@ -106,7 +107,11 @@ fs_walk_end fs_walker_step(fs_walker *w, double *length, double *done) {
   *done = h;
   if (!(outside(to) > slack)) {
     fs_place place = {w->place.patch, fmin(fmax(to[0], 0), 1), fmin(fmax(to[1], 0), 1)};
-    return fs_walker_start(w, place, w->direction) ? FS_WALK_GOES_ON : FS_WALK_UMBILIC;
+    fs_vec3 before = w->position, along = w->direction;
+    if (!fs_walker_start(w, place, along)) return FS_WALK_UMBILIC;
+    /* a step as short as the tolerance allows that turns by 60 degrees, or gets nowhere, goes around an umbilic */
+    bool is_turned = fs_vec3_dot(w->direction, along) < 0.5 || fs_vec3_distance(w->position, before) < 0.5 * h;
+    return is_turned ? FS_WALK_UMBILIC : FS_WALK_GOES_ON;
   }
   beyond = h;
   for (int k = 0; k < MAX_TRIES && beyond - inside > 1e-11 * h; k++) { /* the length that ends on the side */
