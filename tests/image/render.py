@@ -19,6 +19,12 @@ def need_povray():
         sys.exit(SKIPPED)
 
 
+def need_rsvg():
+    if shutil.which("rsvg-convert") is None:
+        print("skipped: rsvg-convert is not installed")
+        sys.exit(SKIPPED)
+
+
 def run(command, folder, log):
     """Runs a command in folder; its output goes to the file log and, on failure, its end into the sentence."""
     with open(log, "w", encoding="utf-8") as file:
@@ -36,6 +42,14 @@ def render(scene, width, height, antialias):
     picture.unlink(missing_ok=True)
     run(["povray", scene.name, "-D", "-GA", "+Q9", f"+W{width}", f"+H{height}", *smooth, "+WT1", f"+O{picture.name}"],
         scene.parent, scene.with_suffix(".log"))
+    return picture
+
+
+def render_svg(drawing, width):
+    """Renders folder/NAME.svg to folder/NAME.png."""
+    picture = drawing.with_suffix(".png")
+    picture.unlink(missing_ok=True)
+    run(["rsvg-convert", "-w", width, drawing.name, "-o", picture.name], drawing.parent, drawing.with_suffix(".log"))
     return picture
 
 
