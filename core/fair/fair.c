@@ -7,6 +7,7 @@
    all nodes and converge quadratically. As C falls, minima turn into saddles, at which symmetric surfaces would stay: where
    the last factorisation of a stage does not show a minimum, fs_leave_saddle looks for the way down. */
 #include "fair/constrain.h"
+#include "fair/smooth_start.h"
 #include "fair/stages.h"
 #include "fair/stay_near.h"
 
@@ -304,6 +305,8 @@ static fs_status run_course(course *c, const fs_space *space) {
   if (c->options->start_triharmonic) FS_TRY(begin_triharmonic(c, space));
   if (c->options->start_triharmonic || c->setup.reduction != NULL) FS_TRY(fs_setup_measure(&c->setup, c->g, &begin));
   FS_TRY(check_start(c->ctx, &c->setup, &begin));
+  if (!is_scale_free && c->setup.wall == NULL && !fs_is_quadratic(c->setup.functional))
+    FS_TRY(fs_smooth_start(&c->setup, c->options, c->x, &begin));
   c->gradient_start = begin.gradient;
   if (c->options->mesh != NULL && c->setup.reduction == NULL && c->setup.wall == NULL && p->n_free >= LEAST_FREE)
     FS_TRY(fs_coarse_create(c->ctx, p, c->options->mesh, LEAST_COARSE, c->coarse, &c->n_coarse));

@@ -190,7 +190,8 @@ typedef struct fs_fair_report {
 } fs_fair_report;
 
 /* Moves the free dofs of c[n_dofs] (in: a start, for example space->start; out: the result) to a minimum of the
-   functional: Levenberg-Marquardt with gain ratio, Newton steps at the end, exact Hessians [Kiciak 2013; docs/].
+   functional: Levenberg-Marquardt with gain ratio, Newton steps at the end, exact Hessians [Kiciak 2013; docs/]. Noise is
+   taken off a rough start before (docs/curvature-variation.md).
    Cancelling by monitor or by ctx->progress keeps the best iterate: FS_OK and stop = FS_STOP_CANCELLED.
    Constraints are met by the result however it ends; where the start does not meet them it is moved first. One that contradicts
    others is FS_ERR_ARGUMENT with its name; one that follows from others is left out, with a note. A tolerance that the start
