@@ -71,8 +71,10 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     a->stay_near = text;
     break;
   case KEY_KEEP:
-    if (strcmp(text, "area") != 0 && strcmp(text, "volume") != 0)
-      argp_error(state, "--keep %s: choose one of area, volume", text);
+    if (text == NULL || (strcmp(text, "area") != 0 && strcmp(text, "volume") != 0)) {
+      argp_error(state, "--keep %s: choose one of area, volume", text != NULL ? text : "");
+      break;
+    }
     a->keep = strcmp(text, "area") == 0 ? FS_KEEP_AREA : FS_KEEP_VOLUME;
     break;
   case ARGP_KEY_END:

@@ -100,5 +100,10 @@ static fs_status write(fs_context *ctx, const fs_model *model, const double *par
 }
 
 const fs_exporter fs_exporter_html = {
-    "html", "html", "web page that shows the surface: one file, no network", params, FS_EXPORT_NET, write,
+    .name = "html",
+    .extension = "html",
+    .summary = "web page that shows the surface: one file, no network",
+    .params = params,
+    .what = FS_EXPORT_NET,
+    .write = write,
 };
