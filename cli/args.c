@@ -39,6 +39,7 @@ enum {
   KEY_KIND,
   KEY_NORMALS,
   KEY_POLISH,
+  KEY_ALONG_NORMALS,
   KEY_MAX_TIME,
   KEY_STOP_DECREASE,
   KEY_EVERY,
@@ -319,6 +320,9 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case KEY_POLISH:
     a->polish = true;
     break;
+  case KEY_ALONG_NORMALS:
+    a->along_normals = true;
+    break;
   case KEY_MAX_TIME:
     a->max_seconds = parse_real(state, "max-time", text, 1e-3, 1e9);
     break;
@@ -415,6 +419,8 @@ static const struct argp_option fixed_options[] = {
     {"nodes", KEY_NODES, "N", 0, "Gauss nodes per direction, everywhere (default: 8 on squares, 12 in caps)", 0},
     {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100, or 400 with --stay-within); 0 only measures", 0},
     {"polish", KEY_POLISH, NULL, 0, "go on with a hundredth of C: a little fairer, takes longer", 0},
+    {"along-normals", KEY_ALONG_NORMALS, NULL, 0,
+     "move vertices along the normals only: keeps the parametrisation, the result depends on the start", 0},
     {"max-time", KEY_MAX_TIME, "SECONDS", 0, "stop after so many seconds with the best surface so far", 0},
     {"stop-decrease", KEY_STOP_DECREASE, "PART", 0, "stop when a step promises less than this part of the functional",
      0},

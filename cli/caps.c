@@ -11,7 +11,7 @@ static void note(fs_context *ctx, const char *format, int32_t n) {
 
 /* Inner coefficients pay where the penalty on the parametrisation becomes small, and are not determined without any. */
 static bool wants_full(const arguments *a) {
-  return a->command == COMMAND_FAIR && a->functional->is_continued &&
+  return a->command == COMMAND_FAIR && !a->along_normals && a->functional->is_continued &&
          a->functional->term[0] == &fs_density_curvature_variation;
 }
 

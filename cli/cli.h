@@ -38,7 +38,7 @@ typedef struct arguments {
   const char *name;           /* of the object in the files, or NULL: the stem */
   const char *fixed, *report; /* files, or NULL */
   const char *every;          /* folder for every iterate, or NULL */
-  bool json, no_refine, quiet, start_triharmonic, polish;
+  bool json, no_refine, quiet, start_triharmonic, polish, along_normals;
   double max_seconds, stop_decrease; /* 0: no limit, that of the library */
   int32_t refine, nodes, threads, blas_threads;
   double max_memory;      /* GB for factorisations; 0: what is available */

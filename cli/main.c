@@ -165,6 +165,7 @@ static fs_status make_fair(job *j) {
                              .max_seconds = a->max_seconds,
                              .decrease_tolerance = a->stop_decrease,
                              .polish = a->polish,
+                             .along_normals = a->along_normals,
                              .start_triharmonic = a->start_triharmonic,
                              .iterate = show_step,
                              .monitor_user = &o};

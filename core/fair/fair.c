@@ -6,6 +6,7 @@
    stage stop early, and run with few quadrature nodes, as does the way to the neighbourhood of a minimum; the last steps see
    all nodes and converge quadratically. As C falls, minima turn into saddles, at which symmetric surfaces would stay: where
    the last factorisation of a stage does not show a minimum, fs_leave_saddle looks for the way down. */
+#include "fair/along_normals.h"
 #include "fair/constrain.h"
 #include "fair/smooth_start.h"
 #include "fair/stages.h"
@@ -15,6 +16,7 @@
 #include <string.h>
 #include <time.h>
 
+enum { NORMALS_KEPT = 3 }; /* steps along the same normals */
 enum { MAX_ITERATIONS = 100, MAX_SADDLES = 4, MAX_ROUNDS = 12, WALL_SHARE = 100 };
 static const double WALL_EXCESS = 0.004; /* relative to the tolerance */
 
@@ -28,6 +30,7 @@ typedef struct course {
   const fs_fair_options *options;
   fs_fair_report *report;
   fs_setup setup;
+  bool *fixed;      /* along normals: with the inner coefficients */
   fs_base base;     /* with linear constraints: the dofs by fewer numbers */
   int32_t n_coarse; /* depths that there are */
   fs_reduction *coarse[FS_MAX_COARSE];
@@ -38,10 +41,10 @@ typedef struct course {
   double *begin, excess;             /* with a wall: x at the start, and how far samples are beyond it */
   int32_t n_rounds;                  /* so many times the last stage was begun with the same wall */
   struct timespec start;
-  int32_t n_earlier_steps; /* of the stages before */
-  int32_t n_stages;        /* before */
-  double last_damping;     /* in the last factorisation */
-  double value;            /* at x */
+  int32_t n_earlier_steps;   /* of the stages before */
+  int32_t n_stages;          /* before */
+  double last_damping;       /* in the last factorisation */
+  double value, begin_value; /* at x, and at the start of the last minimisation */
   bool is_out_of_time;
 } course;
 
@@ -66,6 +69,7 @@ static bool record(void *user, const fs_minimise_step *m) {
                   .n_factorisations = m->n_factorisations,
                   .seconds = seconds_since(&c->start),
                   .c = fs_setup_c(&c->setup)};
+  if (m->number == 0) c->begin_value = m->value;
   if (m->number == 0 && c->n_earlier_steps > 0) return true; /* the start of a later stage */
   c->last_damping = m->damping;
   if (c->report->n_trace < FS_MAX_TRACE) c->report->trace[c->report->n_trace++] = step;
@@ -103,7 +107,7 @@ static fs_status enter_depth(course *c, int32_t depth) {
     c->depth = depth;
     memcpy(reduction->x0, c->x, 3 * (size_t)reduction->n_rows * sizeof *c->x);
     FS_TRY(fs_setup_reduce(&c->setup, reduction));
-    FS_TRY(fs_problem_reduce(c->setup.problem, reduction));
+    if (reduction->weight != NULL) FS_TRY(fs_problem_reduce(c->setup.problem, reduction));
     FS_ALLOC(c->ctx, c->y, 3 * (size_t)reduction->n_columns);
   }
   FS_TRY(fs_solver_create(c->ctx, fs_setup_pattern(&c->setup), &c->solver));
@@ -132,7 +136,9 @@ static fs_status minimise(course *c, const fs_stage *stage, const fs_objective *
   int32_t max_iterations = options->max_iterations;
   fs_minimise_report m;
   if (max_iterations == 0) max_iterations = c->setup.wall != NULL ? 4 * MAX_ITERATIONS : MAX_ITERATIONS;
-  fs_minimise_options o = {.max_iterations = max_iterations - c->n_earlier_steps,
+  max_iterations -= c->n_earlier_steps;
+  fs_minimise_options o = {.max_iterations =
+                               options->along_normals && max_iterations > NORMALS_KEPT ? NORMALS_KEPT : max_iterations,
                            .decrease_tolerance = stage->tolerance,
                            .damping = &c->damping,
                            .least_damping = c->setup.functional->is_scale_free || c->setup.wall != NULL ? 1e-10 : 0,
@@ -140,7 +146,7 @@ static fs_status minimise(course *c, const fs_stage *stage, const fs_objective *
                            .user = c};
   if (c->setup.wall != NULL) { /* the forces of the wall change after each stage */
     o.decrease_tolerance = fmax(o.decrease_tolerance, 1e-7);
-  } else if (stage->is_last && stage->tolerance <= 1e-12) {
+  } else if (stage->is_last && stage->tolerance <= 1e-12 && !options->along_normals) {
     o.is_newton = true;
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
     o.gradient_start = c->gradient_start;
@@ -152,7 +158,23 @@ static fs_status minimise(course *c, const fs_stage *stage, const fs_objective *
   c->report->n_hessians += m.n_hessians;
   c->report->n_factorisations += m.n_factorisations;
   c->report->stop = c->is_out_of_time ? FS_STOP_TIME : (fs_stop)m.stop;
-  *is_over = m.stop == FS_MINIMISE_CANCELLED || m.stop == FS_MINIMISE_ITERATIONS;
+  *is_over = m.stop == FS_MINIMISE_CANCELLED || (m.stop == FS_MINIMISE_ITERATIONS && m.n_steps == max_iterations);
+done:
+  return status;
+}
+
+/* Along normals that are refreshed, until they bring no more. */
+static fs_status minimise_along_normals(course *c, const fs_stage *stage, const fs_objective *objective,
+                                        bool *is_over) {
+  fs_status status = FS_OK;
+  double tolerance = fmax(stage->tolerance, 1e-9);
+  do {
+    FS_TRY(fs_along_normals_turn(&c->setup, c->x));
+    memset(c->y, 0, 3 * (size_t)fs_setup_n(&c->setup) * sizeof *c->y);
+    FS_TRY(minimise(c, stage, objective, is_over));
+    fs_reduction_apply(c->setup.reduction, c->y, c->x);
+  } while (!*is_over && c->begin_value - c->value > tolerance * fabs(c->value));
+  if (c->report->stop == FS_STOP_ITERATIONS && !*is_over) c->report->stop = FS_STOP_DECREASE;
 done:
   return status;
 }
@@ -183,7 +205,8 @@ static fs_status run_stage(course *c, const fs_stage *stage, bool *is_over) {
   FS_TRY(enter_depth(c, stage->depth));
   objective = fs_setup_objective(&c->setup, c->solver);
   if (c->setup.wall != NULL && c->n_rounds == 0) FS_TRY(stiffen_wall(c, &objective));
-  for (int32_t round = 0; has_moved && !*is_over; round++) {
+  if (c->options->along_normals) FS_TRY(minimise_along_normals(c, stage, &objective, is_over));
+  for (int32_t round = 0; !c->options->along_normals && has_moved && !*is_over; round++) {
     FS_TRY(minimise(c, stage, &objective, is_over));
     has_moved = false;
     if (*is_over || !stage->is_minimum || c->setup.wall != NULL || round == MAX_SADDLES ||
@@ -233,7 +256,10 @@ static fs_status run_stages(course *c) {
   int32_t n = fs_stages_plan(&c->setup, c->options, c->n_coarse, stages);
   bool is_over = false;
   c->damping = (fs_damping){.nu = fs_is_quadratic(c->setup.functional) ? 0 : 1};
-  for (int32_t i = 0; i < n && !is_over; i++) FS_TRY(run_stage(c, &stages[i], &is_over));
+  for (int32_t i = 0; i < n && !is_over; i++) {
+    if (c->options->along_normals) stages[i].depth = 1;
+    FS_TRY(run_stage(c, &stages[i], &is_over));
+  }
   if (c->setup.wall != NULL) FS_TRY(press_to_wall(c, &stages[n - 1], is_over));
 done:
   if (c->depth > 0) leave_depth(c); /* stopped there */
@@ -242,10 +268,6 @@ done:
 }
 
 /* ---- fairing ----------------------------------------------------------------------------------------------------- */
-
-static const fs_functional *functional_of(const fs_fair_options *options) {
-  return options->functional != NULL ? options->functional : fs_functionals[0];
-}
 
 static fs_status check_start(fs_context *ctx, fs_setup *s, const fs_energy *energy) {
   fs_status status = FS_OK;
@@ -305,10 +327,13 @@ static fs_status run_course(course *c, const fs_space *space) {
   if (c->options->start_triharmonic) FS_TRY(begin_triharmonic(c, space));
   if (c->options->start_triharmonic || c->setup.reduction != NULL) FS_TRY(fs_setup_measure(&c->setup, c->g, &begin));
   FS_TRY(check_start(c->ctx, &c->setup, &begin));
-  if (!is_scale_free && c->setup.wall == NULL && !fs_is_quadratic(c->setup.functional))
+  if (c->options->along_normals)
+    FS_TRY(fs_along_normals_create(&c->setup, &c->coarse[0]));
+  else if (!is_scale_free && c->setup.wall == NULL && !fs_is_quadratic(c->setup.functional))
     FS_TRY(fs_smooth_start(&c->setup, c->options, c->x, &begin));
   c->gradient_start = begin.gradient;
-  if (c->options->mesh != NULL && c->setup.reduction == NULL && c->setup.wall == NULL && p->n_free >= LEAST_FREE)
+  if (c->options->mesh != NULL && !c->options->along_normals && c->setup.reduction == NULL && c->setup.wall == NULL &&
+      p->n_free >= LEAST_FREE)
     FS_TRY(fs_coarse_create(c->ctx, p, c->options->mesh, LEAST_COARSE, c->coarse, &c->n_coarse));
   c->report->n_coarse = c->n_coarse;
   FS_TRY(run_stages(c));
@@ -330,12 +355,27 @@ static int32_t count_free_inner(const fs_problem *p) {
   return n;
 }
 
+/* The options' fixed dofs are those and all inner coefficients. */
+static fs_status fix_inner(course *c, const fs_space *space, fs_fair_options *own) {
+  fs_status status = FS_OK;
+  FS_ALLOC(c->ctx, c->fixed, space->n_dofs);
+  for (int32_t d = 0; d < space->n_dofs; d++)
+    c->fixed[d] = d >= space->n_vertices || (own->fixed != NULL && own->fixed[d]);
+  own->fixed = c->fixed;
+done:
+  return status;
+}
+
 /* The setup; with linear constraints in fewer unknowns, which then are set in c->x. *own: options with what is fixed by
    symmetry too. */
 static fs_status begin_constraints(course *c, const fs_space *space, const fs_vec3 *dofs, fs_fair_options *own) {
   fs_status status = FS_OK;
   const fs_constraints *k = own->constraints;
-  const fs_functional *functional = functional_of(own);
+  const fs_functional *functional = fs_setup_functional(own);
+  if (own->along_normals && k != NULL &&
+      (k->n_holds > 0 || k->n_equations > 0 || k->symmetry != NULL || k->tolerance > 0))
+    return fs_fail(c->ctx, FS_ERR_UNSUPPORTED, "points, equations, symmetry and distances are not kept along normals");
+  if (own->along_normals) FS_TRY(fix_inner(c, space, own));
   if (k == NULL || (k->n_holds == 0 && k->n_equations == 0 && k->symmetry == NULL))
     return fs_setup_create(c->ctx, space, own, functional, dofs, &c->setup);
   FS_TRY(fs_base_create(c->ctx, space, own->fixed, k->symmetry, dofs, &c->base));
@@ -383,30 +423,12 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
   memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
   if (report != NULL) *report = r;
 done:
-  for (int32_t i = 0; i < c.n_coarse; i++) fs_reduction_free(ctx, c.coarse[i]);
+  for (int32_t i = 0; i < FS_MAX_COARSE; i++) fs_reduction_free(ctx, c.coarse[i]);
+  fs_release(ctx, c.fixed);
   fs_release(ctx, c.x);
   fs_release(ctx, c.g);
   fs_release(ctx, c.begin);
   fs_setup_free(ctx, &c.setup);
   fs_base_free(ctx, &c.base);
   return status;
-}
-
-fs_status fs_fair_energy(fs_context *ctx, const fs_space *space, const fs_fair_options *options, const fs_vec3 *c,
-                         fs_energy *energy) {
-  fs_status status = FS_OK;
-  fs_setup s = {0};
-  double *g = NULL;
-  FS_TRY(fs_setup_create(ctx, space, options, functional_of(options), c, &s));
-  FS_ALLOC(ctx, g, 3 * (size_t)s.problem->n_free);
-  FS_TRY(fs_setup_measure(&s, g, energy));
-done:
-  fs_release(ctx, g);
-  fs_setup_free(ctx, &s);
-  return status;
-}
-
-const char *fs_stop_text(fs_stop stop) {
-  static const char *const text[] = {"gradient", "step", "decrease", "iterations", "cancelled", "time"};
-  return text[stop];
 }

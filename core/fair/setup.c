@@ -69,13 +69,14 @@ void fs_setup_free(fs_context *ctx, fs_setup *s) {
   fs_release(ctx, s->x);
   fs_release(ctx, s->g);
   fs_volume_free(s->volume);
+  fs_volume_free(s->normals);
   fs_wall_free(s->wall);
   fs_problem_free(ctx, s->problem);
   s->problem = NULL;
   s->reduction = NULL;
   s->reduced = NULL;
   s->x = s->g = NULL;
-  s->volume = NULL;
+  s->volume = s->normals = NULL;
   s->wall = NULL;
 }
 

@@ -25,14 +25,18 @@ typedef struct fs_setup {
   int32_t n_cheap_hessians;
   fs_volume *volume; /* where it is kept, V^(2/3) times volume_factor stands for the area in the functional; or NULL */
   double volume_sign, volume_factor;
-  fs_wall *wall; /* added to the functional; or NULL */
-  double *x, *g; /* [3 n_free] with a reduction: the free dofs and their gradient */
+  fs_wall *wall;      /* added to the functional; or NULL */
+  fs_volume *normals; /* where dofs move along normals: these are gradients of it; or NULL */
+  double *x, *g;      /* [3 n_free] with a reduction: the free dofs and their gradient */
 } fs_setup;
 
 /* The scale of the problem, and whether places are given at all: then the functional may depend on size and place, else it
    must not. FS_ERR_UNSUPPORTED where constraints give places, but not the size. */
 fs_status fs_scale_find(fs_context *ctx, const fs_space *space, const fs_fair_options *options, const fs_vec3 *c,
                         fs_scale *scale, bool *is_fixed);
+
+/* The functional that options ask for. */
+const fs_functional *fs_setup_functional(const fs_fair_options *options);
 
 /* Chooses the functional (also by whether anything is fixed), checks options and parameters, makes the problem at c. */
 fs_status fs_setup_create(fs_context *ctx, const fs_space *space, const fs_fair_options *options,

@@ -164,7 +164,11 @@ typedef struct fs_fair_options {
                                 gradient is not asked for */
   bool polish;               /* lower a continued parameter to a hundredth of its value, as long as a step brings 1e-4:
                                 fairer by a little, squares less even, and the minimum need not be unique */
-  bool start_triharmonic;    /* begin at the minimum of the triharmonic functional (a linear problem) */
+  bool
+      along_normals; /* control vertices move along the normals of the surface only, which keeps the parametrisation: a third
+                         of the unknowns. The result depends on the start. Inner coefficients of caps stay. Not with
+                         constraints other than keep */
+  bool start_triharmonic; /* begin at the minimum of the triharmonic functional (a linear problem) */
   bool (*monitor)(void *user, const fs_step *step); /* called after every accepted step; false cancels */
   bool (*iterate)(void *user, const fs_step *step, const fs_vec3 *c); /* likewise, with the dofs, lent for the call */
   void *monitor_user;                                                 /* for both */
