@@ -2,6 +2,7 @@
 /* Single role: drawings: the pages, and what is drawn in each view: dark areas, borders, contours, curves, combs, umbilics.
    Contours are the isophotes of the direction of view: n . towards = 0. */
 #include "drawing.h"
+#include "strokes.h"
 #include "writer.h"
 #include "base/base.h"
 #include "analyse/curves.h"
@@ -34,7 +35,7 @@ typedef struct sheet {
   cairo_t *cairo;
   const fs_view *view;
   double scale; /* points per unit of length */
-  double level[2];
+  fs_stroke_colours colours;
 } sheet;
 
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
@@ -45,10 +46,10 @@ typedef struct pen {
 static const pen contour_pen = {0.35, 0, 0, 0}, curve_pen = {0.2, 0.05, 0.15, 0.5}, tooth_pen = {0.08, 0.55, 0.1, 0.1},
                  edge_pen = {0.05, 0.12, 0.12, 0.14};
 
-/* Blue over grey to red. */
 static pen graded(const sheet *s, double level) {
-  double t = s->level[1] > s->level[0] ? (level - s->level[0]) / (s->level[1] - s->level[0]) : 0.5;
-  return (pen){0.25, fmin(0.85, 1.6 * t), 0.35 * (1 - fabs(2 * t - 1)), fmin(0.85, 1.6 * (1 - t))};
+  double rgb[3];
+  fs_stroke_colour(&s->colours, level, rgb);
+  return (pen){0.25, rgb[0], rgb[1], rgb[2]};
 }
 
 static void take_pen(const sheet *s, const pen *pen, bool is_seen) {
@@ -263,18 +264,8 @@ done:
   return status;
 }
 
-static void find_levels(sheet *s) {
-  const fs_curves *curves = s->model->curves;
-  s->level[0] = INFINITY, s->level[1] = -INFINITY;
-  for (int32_t i = 0; curves != NULL && i < curves->n_curves; i++) {
-    s->level[0] = fmin(s->level[0], curves->curve[i].level);
-    s->level[1] = fmax(s->level[1], curves->curve[i].level);
-  }
-}
-
 static fs_status draw_page(sheet *s, layout *l) {
   fs_status status = FS_OK;
-  find_levels(s);
   s->scale = l->scale * point_per_mm;
   cairo_set_line_cap(s->cairo, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(s->cairo, CAIRO_LINE_JOIN_ROUND);
@@ -322,7 +313,7 @@ static fs_status draw(sheet *s, layout *l, fs_writer *writer, fs_drawing_open op
 fs_status fs_drawing_write(fs_context *ctx, const fs_model *model, const double *param, const fs_output *output,
                            const char *extension, fs_drawing_open open) {
   fs_status status = FS_OK;
-  sheet s = {.ctx = ctx, .model = model, .param = param};
+  sheet s = {.ctx = ctx, .model = model, .param = param, .colours = fs_stroke_colours_of(model->curves)};
   layout l = {0};
   fs_writer writer;
   FS_TRY(fs_tessellate(ctx, model->surface, choose_steps(model->surface), &s.triangles));

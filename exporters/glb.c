@@ -6,6 +6,7 @@
 #include "writer.h"
 #include "base/base.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { STEPS, DRACO, POSITION_BITS, NORMAL_BITS, MEASURE_BITS };
@@ -93,6 +94,7 @@ static fs_status write(fs_context *ctx, const fs_model *model, const double *par
     else
       FS_TRY(append_plain(mesh, &mesh->part[p], &chunk, &stored[p]));
   }
+  if (model->curves != NULL) FS_TRY(fs_glb_append_lines(ctx, model, sqrt(3) * mesh->grid[3], &chunk, &scene.lines));
   scene.mesh = mesh;
   scene.stored = stored;
   scene.ramp_start = chunk.size;
@@ -128,4 +130,5 @@ const fs_exporter fs_exporter_glb = {
                                  {.name = NULL}},
     .what = FS_EXPORT_SURFACE,
     .write = write,
+    .has_curves = true,
 };

@@ -4,6 +4,7 @@
 #define FS_EXPORTERS_GLB_H
 
 #include "blob.h"
+#include "writer.h"
 
 /* A connected part of the triangles; corners count from its first vertex. */
 typedef struct fs_glb_part {
@@ -47,12 +48,26 @@ typedef struct fs_glb_bits {
 fs_status fs_glb_append_compressed(fs_context *ctx, const fs_glb_mesh *mesh, const fs_glb_part *part,
                                    const fs_glb_bits *bits, fs_blob *chunk, fs_glb_stored *stored);
 
+/* Curves in the chunk, plain; n_lines 0: none. Indices, positions, colours without gaps. */
+typedef struct fs_glb_lines {
+  size_t start;
+  int32_t n_points, n_lines;
+  float min[3], max[3];
+} fs_glb_lines;
+fs_status fs_glb_append_lines(fs_context *ctx, const fs_model *model, double diagonal, fs_blob *chunk,
+                              fs_glb_lines *lines);
+/* Their three accessors are first, first + 1, first + 2, their views view, … */
+void fs_glb_write_lines_mesh(fs_writer *writer, int32_t first);
+void fs_glb_write_lines_views(fs_writer *writer, const fs_glb_lines *lines);
+void fs_glb_write_lines_accessors(fs_writer *writer, const fs_glb_lines *lines, int32_t view);
+
 /* The text of the JSON chunk. stored[n_parts]; the ramp, where there is a measure, lies in the chunk at ramp_start. */
 typedef struct fs_glb_scene {
   const fs_model *model;
   const fs_glb_mesh *mesh;
   const fs_glb_stored *stored;
   bool is_compressed;
+  fs_glb_lines lines;
   size_t chunk_size, ramp_start, ramp_size;
 } fs_glb_scene;
 fs_status fs_glb_append_scene(const fs_glb_scene *scene, fs_blob *json);

@@ -5,6 +5,7 @@
 #include "writer.h"
 
 #define COMPRESSION "KHR_draco_mesh_compression"
+#define UNLIT "KHR_materials_unlit"
 
 enum { FLOAT32 = 5126, UINT32 = 5125, VERTICES = 34962, INDICES = 34963 };
 
@@ -68,17 +69,20 @@ static void write_nodes(fs_writer *w, const fs_glb_scene *s) {
   write_string(w, s->model->name);
   fs_writer_text(w, ",\"rotation\":[-0.7071067811865475,0,0,0.7071067811865476]");
   if (s->mesh->n_parts == 1) {
-    fs_writer_text(w, ",\"mesh\":0}]");
+    fs_writer_text(w, s->lines.n_lines > 0 ? ",\"mesh\":0,\"children\":[1]},{\"name\":\"curves\",\"mesh\":1}]"
+                                           : ",\"mesh\":0}]");
     return;
   }
   fs_writer_text(w, ",\"children\":[");
   for (int32_t p = 0; p < s->mesh->n_parts; p++) fs_writer_printf(w, p > 0 ? ",%d" : "%d", p + 1);
+  if (s->lines.n_lines > 0) fs_writer_printf(w, ",%d", s->mesh->n_parts + 1);
   fs_writer_text(w, "]}");
   for (int32_t p = 0; p < s->mesh->n_parts; p++) {
     fs_writer_text(w, ",{");
     write_named(w, s, p);
     fs_writer_printf(w, ",\"mesh\":%d}", p);
   }
+  if (s->lines.n_lines > 0) fs_writer_printf(w, ",{\"name\":\"curves\",\"mesh\":%d}", s->mesh->n_parts);
   fs_writer_text(w, "]");
 }
 
@@ -115,7 +119,11 @@ static void write_materials(fs_writer *w, const fs_glb_scene *s, int32_t view) {
                    s->mesh->is_closed ? "false" : "true");
   fs_writer_text(w, s->mesh->measure != NULL ? "\"baseColorTexture\":{\"index\":0}"
                                              : "\"baseColorFactor\":[0.3,0.45,0.62,1]");
-  fs_writer_text(w, ",\"metallicFactor\":0,\"roughnessFactor\":0.35}}]");
+  fs_writer_text(w, ",\"metallicFactor\":0,\"roughnessFactor\":0.35}}");
+  if (s->lines.n_lines > 0)
+    fs_writer_text(w, ",{\"name\":\"curves\",\"extensions\":{\"" UNLIT "\":{}},\"pbrMetallicRoughness\":"
+                      "{\"metallicFactor\":0,\"roughnessFactor\":1}}");
+  fs_writer_text(w, "]");
   if (s->mesh->measure == NULL) return;
   fs_writer_text(w, ",\"textures\":[{\"source\":0,\"sampler\":0}],\"samplers\":[{\"magFilter\":9729,\"minFilter\":9729,"
                     "\"wrapS\":33071,\"wrapT\":33071}],\"images\":[{\"name\":\"ramp\",\"mimeType\":\"image/png\",");
@@ -154,6 +162,10 @@ static int32_t write_views(fs_writer *w, const fs_glb_scene *s) {
       write_view(w, at, size, VERTICES);
     }
     number += n + FIRST_ATTRIBUTE;
+  }
+  if (s->lines.n_lines > 0) {
+    fs_glb_write_lines_views(w, &s->lines);
+    number += 3;
   }
   if (s->mesh->measure != NULL) {
     fs_writer_text(w, ",");
@@ -194,6 +206,7 @@ static void write_accessors(fs_writer *w, const fs_glb_scene *s) {
       fs_writer_text(w, "}");
     }
   }
+  if (s->lines.n_lines > 0) fs_glb_write_lines_accessors(w, &s->lines, s->is_compressed ? s->mesh->n_parts : view);
   fs_writer_text(w, "]");
 }
 
@@ -205,11 +218,15 @@ fs_status fs_glb_append_scene(const fs_glb_scene *s, fs_blob *json) {
   fs_writer_text(&w, "{\"asset\":{\"version\":\"2.0\",\"generator\":");
   write_string(&w, s->model->made_with != NULL ? s->model->made_with : "fairsurf");
   fs_writer_text(&w, "},");
-  if (s->is_compressed)
-    fs_writer_text(&w, "\"extensionsUsed\":[\"" COMPRESSION "\"],\"extensionsRequired\":[\"" COMPRESSION "\"],");
+  if (s->is_compressed && s->lines.n_lines > 0)
+    fs_writer_text(&w, "\"extensionsUsed\":[\"" COMPRESSION "\",\"" UNLIT "\"],");
+  else if (s->is_compressed || s->lines.n_lines > 0)
+    fs_writer_printf(&w, "\"extensionsUsed\":[\"%s\"],", s->is_compressed ? COMPRESSION : UNLIT);
+  if (s->is_compressed) fs_writer_text(&w, "\"extensionsRequired\":[\"" COMPRESSION "\"],");
   write_nodes(&w, s);
   fs_writer_text(&w, ",\"meshes\":[");
   for (int32_t p = 0; p < s->mesh->n_parts; p++) write_mesh(&w, s, p);
+  if (s->lines.n_lines > 0) fs_glb_write_lines_mesh(&w, (count_attributes(s) + FIRST_ATTRIBUTE) * s->mesh->n_parts);
   fs_writer_text(&w, "]");
   picture = write_views(&w, s);
   write_materials(&w, s, picture);

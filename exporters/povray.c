@@ -96,6 +96,7 @@ static fs_status write(fs_context *ctx, const fs_model *given, const double *par
     FS_TRY(write_mesh(ctx, &written, NULL, output));
   else
     FS_TRY(write_bicubic(ctx, &written, output));
+  if (model.curves != NULL) FS_TRY(fs_povray_write_curves(ctx, &written, output));
   FS_TRY(fs_povray_write_scene(ctx, &written, scene, output));
   if (scene == FS_POVRAY_TURNTABLE) FS_TRY(fs_povray_write_turn(ctx, &written, (int32_t)param[FRAMES], output));
 done:
@@ -109,4 +110,5 @@ const fs_exporter fs_exporter_povray = {
     .params = params,
     .what = FS_EXPORT_SURFACE,
     .write = write,
+    .has_curves = true,
 };

@@ -64,6 +64,8 @@ fs_status fs_povray_write_mesh(fs_context *ctx, const fs_povray_model *model, co
                                const fs_output *output);
 fs_status fs_povray_write_scene(fs_context *ctx, const fs_povray_model *model, fs_povray_scene scene,
                                 const fs_output *output);
+/* NAME.curves.inc: the curves of the model. */
+fs_status fs_povray_write_curves(fs_context *ctx, const fs_povray_model *model, const fs_output *output);
 /* NAME.ini, with which the renderer makes n_frames pictures of one turn. */
 fs_status fs_povray_write_turn(fs_context *ctx, const fs_povray_model *model, int32_t n_frames,
                                const fs_output *output);

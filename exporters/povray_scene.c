@@ -24,6 +24,10 @@ static const char lights[] = "light_source { $_Middle + <3, -6, 8> * $_Radius rg
 static const char outside[] = "  pigment { rgb <0.30, 0.45, 0.62> } finish { $_Finish }\n";
 static const char inside[] = "  pigment { rgb <0.66, 0.54, 0.36> } finish { $_Finish }\n";
 
+#define TURN                                       \
+  "\n  // one turn while clock goes from 0 to 1\n" \
+  "  translate -$_Middle rotate 360 * clock * z translate $_Middle"
+
 /* What stands around the object; the textures of its two sides, or one for both; what stands in its braces. */
 static const struct {
   const char *around, *texture, *inside, *object;
@@ -51,10 +55,7 @@ static const struct {
          "    [0.5 rgb <0.95, 0.95, 0.9>] [0.75 rgb <0.95, 0.75, 0.2>] [1 rgb <0.75, 0.1, 0.1>] } }\n"
          "  finish { ambient 0.35 diffuse 0.6 }\n",
          NULL, "texture { $_Texture }"},
-    [FS_POVRAY_TURNTABLE] = {lights, outside, inside,
-                             "texture { $_Texture } interior_texture { $_Inside }\n"
-                             "  // one turn while clock goes from 0 to 1\n"
-                             "  translate -$_Middle rotate 360 * clock * z translate $_Middle"},
+    [FS_POVRAY_TURNTABLE] = {lights, outside, inside, "texture { $_Texture } interior_texture { $_Inside } " TURN},
 };
 
 static void write_text(fs_writer *w, const char *text, const char *name) {
@@ -88,6 +89,10 @@ fs_status fs_povray_write_scene(fs_context *ctx, const fs_povray_model *model, f
   write_text(&writer, "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n", model->name);
   fs_writer_text(&writer, "#include ");
   fs_povray_file(&writer, stem(model), "inc");
+  if (model->model->curves != NULL) {
+    fs_writer_text(&writer, "\n#include ");
+    fs_povray_file(&writer, stem(model), "curves.inc");
+  }
   fs_writer_text(&writer, "\n");
   write_text(&writer, "#declare $_Distance = ", model->name);
   fs_povray_number(&writer, model->distance, 6);
@@ -99,6 +104,9 @@ fs_status fs_povray_write_scene(fs_context *ctx, const fs_povray_model *model, f
   write_text(&writer, "object { $ ", model->name);
   write_text(&writer, scenes[scene].object, model->name);
   fs_writer_text(&writer, " }\n");
+  if (model->model->curves != NULL)
+    write_text(&writer, scene == FS_POVRAY_TURNTABLE ? "object { $_Curves " TURN " }\n" : "object { $_Curves }\n",
+               model->name);
   return fs_writer_finish(&writer);
 }
 

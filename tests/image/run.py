@@ -29,9 +29,13 @@ def read_cases():
     return {words[0]: words[1:] for words in lines if words}
 
 
+def is_drawing(name):
+    return name.startswith("plot-")
+
+
 def make_scene(arguments, name, case):
     mesh, command, *options = case
-    scene = arguments.out / f"{name}{'.svg' if command == 'plot' else '.pov'}"
+    scene = arguments.out / f"{name}{'.svg' if is_drawing(name) else '.pov'}"
     path = MESHES / mesh
     if arguments.red is not None:
         move_point(path, arguments.red, arguments.out / mesh)
@@ -77,9 +81,9 @@ def main():
             setattr(arguments, path, getattr(arguments, path).resolve())
     cases = read_cases()
     names = arguments.names or list(cases)
-    if any(cases.get(name, ["", ""])[1] == "plot" for name in names):
+    if any(is_drawing(name) for name in names):
         render.need_rsvg()
-    if any(cases.get(name, ["", ""])[1] != "plot" for name in names):
+    if not all(is_drawing(name) for name in names):
         render.need_povray()
     arguments.out.mkdir(parents=True, exist_ok=True)
     failed = False

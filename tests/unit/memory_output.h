@@ -11,7 +11,7 @@
 
 /* Zero at the beginning. Several files follow each other in bytes; a zero byte ends them. */
 typedef struct memory_output {
-  char *bytes, extension[8];
+  char *bytes, extension[16];
   size_t size;
   int32_t n_opened;
 } memory_output;
