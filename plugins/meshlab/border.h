@@ -223,11 +223,12 @@ inline void putVertices(const outcome &o, const std::vector<int32_t> &number, Me
     vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(mesh, CMeshO::ScalarType(o.low), CMeshO::ScalarType(o.high));
 }
 
+/* Hides a layer that would cover the result. In 2020.09 the window alone knows which layers are seen, and no filter reaches it. */
 inline void hide(MeshModel *model) {
 #if FS_MESHLAB_GENERATION >= 2021
   model->setVisible(false);
 #else
-  model->visible = false;
+  (void)model;
 #endif
 }
 
@@ -249,7 +250,7 @@ inline fs_status putOutcome(fs_context *ctx, const outcome &o, std::vector<int32
     QString name = QFileInfo(source->label()).completeBaseName() + " " + o.suffix;
     model = document.addNewMesh("", name, true);
     model->cm.Tr = source->cm.Tr;
-    hide(source); // it would cover the result
+    hide(source);
   }
   putFaces(o, t, *model);
   putVertices(o, number, *model);

@@ -365,8 +365,28 @@ def formats(tools):
             print(f".{file}: {len(found)} bytes")
 
 
+def gui(tools):
+    """The windows of MeshLab, and the programs for which File > Export writes."""
+    start, folder = tools.path("pipe.ply"), tools.path("screen")
+    write_ply(start, mesh_of("pipe"))
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gui.sh")
+    readers = (["povray", "+Ipart.pov", "+Opart.png", "+W160", "+H120", "-D"],
+               ["openscad", "-o", "part.stl", "part.scad"])
+    done = subprocess.run([script, os.path.join(tools.prefix, "bin", "meshlab"), start, folder], check=False)
+    if done.returncode != 0:
+        raise Failure("the windows of MeshLab: see above")
+    for command in readers:
+        done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              check=False, errors="replace")
+        if done.returncode != 0 or re.search(r"WARNING|ERROR", done.stdout):
+            raise Failure(f"{' '.join(command)}: {done.stdout[-2000:]}")
+        print(f"{command[0]} takes what was exported")
+
+
 TESTS = {"refine": refine, "fair": fair, "selection": selection, "patches": patches, "curvature": curvature,
-         "fill_hole": fill_hole, "refusals": refusals, "formats": formats}
+         "fill_hole": fill_hole, "refusals": refusals, "formats": formats, "gui": gui}
+NEEDED = ("meshlabserver", "xvfb-run")
+NEEDED_BY_GUI = ("meshlab", "Xvfb", "openbox", "xdotool", "import", "xdpyinfo", "povray", "openscad")
 
 
 def main():
@@ -377,7 +397,7 @@ def main():
     parser.add_argument("--plugin", action="append", default=[])
     parser.add_argument("tests", nargs="+", choices=TESTS)
     arguments = parser.parse_args()
-    needed = missing("meshlabserver", "xvfb-run")
+    needed = missing(*NEEDED, *(NEEDED_BY_GUI if "gui" in arguments.tests else ()))
     if needed or not arguments.plugin:
         print(f"skipped: {needed or 'what the plugin is built with'} is not installed: scripts/deps --meshlab")
         return SKIP
