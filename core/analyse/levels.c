@@ -176,22 +176,23 @@ static void join_patches(grid *g) {
 
 /* ---- points between crossings ------------------------------------------------------------------------------------ */
 
-/* Moves (u, v) onto the curve along the gradient; false where that fails or leaves a box around the start. */
+/* Moves (u, v) onto the curve along the gradient; false where that fails, or leaves a box around the start or the patch. */
 static bool move_onto(const grid *g, int32_t patch, double reach, double *u, double *v) {
-  double start[2] = {*u, *v}, f = value_at(g, patch, *u, *v);
+  double start[2] = {*u, *v}, f = value_at(g, patch, *u, *v), slope = 1;
   const double h = 1e-6;
   for (int k = 0; k < NEWTON_STEPS && f != 0; k++) {
     double du = (value_at(g, patch, *u + h, *v) - value_at(g, patch, *u - h, *v)) / (2 * h);
     double dv = (value_at(g, patch, *u, *v + h) - value_at(g, patch, *u, *v - h)) / (2 * h);
     double square = du * du + dv * dv, a, b, next;
     if (!(square > 0) || !isfinite(square)) return false;
+    slope = sqrt(square);
     a = *u - f * du / square, b = *v - f * dv / square;
     if (fabs(a - start[0]) > reach || fabs(b - start[1]) > reach) return false;
     next = value_at(g, patch, a, b);
     if (!(fabs(next) < fabs(f))) break; /* rounding */
     *u = a, *v = b, f = next;
   }
-  return isfinite(f);
+  return fabs(f) <= 1e-11 * slope && *u >= 0 && *u <= 1 && *v >= 0 && *v <= 1;
 }
 
 static double deviation(fs_vec3 a, fs_vec3 b, fs_vec3 p) {
@@ -208,7 +209,7 @@ static fs_status add_between(grid *g, fs_curve_list *list, const fs_curve_point 
   double reach = 0.51 * (fabs(a->place.u - b->place.u) + fabs(a->place.v - b->place.v));
   fs_curve_point middle;
   if (depth == MAX_DEPTH || !move_onto(g, a->place.patch, reach, &u, &v)) return FS_OK;
-  middle = fs_curve_point_at(g->surface, a->place.patch, fmin(fmax(u, 0), 1), fmin(fmax(v, 0), 1));
+  middle = fs_curve_point_at(g->surface, a->place.patch, u, v);
   if (deviation(a->position, b->position, middle.position) <= g->tolerance && depth > 0) return FS_OK;
   FS_TRY(add_between(g, list, a, &middle, depth + 1));
   FS_TRY(fs_curve_list_add(g->ctx, list, &middle));
