@@ -115,6 +115,29 @@ void FS_KERNEL(fs_hessian)(int32_t m, const double *by_point, const double *ddf,
   }
 }
 
+/* out[n_rows][n] = A B for A[n_rows][m], whose element (i, j) is at i * by_row + j * by_column, and B[m][n], n a multiple of 8;
+   four rows of two vectors at once. */
+static inline void multiply(int32_t n_rows, int32_t m, int32_t n, const double *A, size_t by_row, size_t by_column,
+                            const double *B, double *out) {
+  enum { ROWS = 4, VECTORS = FS_LANES == 8 ? 1 : 2 };
+  for (int32_t first = 0; first < n_rows; first += ROWS)
+    for (int32_t k = 0; k < n; k += VECTORS * FS_LANES) {
+      lanes sum[ROWS][VECTORS] = {{{0}}};
+      size_t row[ROWS]; /* beyond the end: the last one again */
+      for (int i = 0; i < ROWS; i++) row[i] = (size_t)(first + i < n_rows ? first + i : n_rows - 1) * by_row;
+      for (int32_t j = 0; j < m; j++) {
+        const double *from = B + (size_t)j * (size_t)n + k, *a = A + (size_t)j * by_column;
+        for (int v = 0; v < VECTORS; v++) {
+          lanes b = lanes_load(from + v * FS_LANES);
+          for (int i = 0; i < ROWS; i++) sum[i][v] += a[row[i]] * b;
+        }
+      }
+      for (int i = 0; i < ROWS && first + i < n_rows; i++)
+        for (int v = 0; v < VECTORS; v++)
+          lanes_store(out + (size_t)(first + i) * (size_t)n + k + v * FS_LANES, sum[i][v]);
+    }
+}
+
 /* work = h T, out = T^T work; lower triangles are filled in before where only the upper one is there. */
 void FS_KERNEL(fs_congruence)(int32_t m, int32_t m_padded, int32_t n, const double *T, double *h, double *work,
                               double *out) {
@@ -122,17 +145,7 @@ void FS_KERNEL(fs_congruence)(int32_t m, int32_t m_padded, int32_t n, const doub
     bool is_symmetric = pair == 0 || pair == 3 || pair == 5;
     for (int32_t i = 0; is_symmetric && i < m; i++)
       for (int32_t j = 0; j < i; j++) h[(size_t)i * m_padded + j] = h[(size_t)j * m_padded + i];
-    for (int32_t i = 0; i < m; i++)
-      for (int32_t k = 0; k < n; k += FS_LANES) {
-        lanes sum = {0};
-        for (int32_t j = 0; j < m; j++) sum += h[(size_t)i * m_padded + j] * lanes_load(T + (size_t)j * n + k);
-        lanes_store(work + (size_t)i * n + k, sum);
-      }
-    for (int32_t i = 0; i < n; i++)
-      for (int32_t k = 0; k < n; k += FS_LANES) {
-        lanes sum = {0};
-        for (int32_t j = 0; j < m; j++) sum += T[(size_t)j * n + i] * lanes_load(work + (size_t)j * n + k);
-        lanes_store(out + (size_t)i * n + k, sum);
-      }
+    multiply(m, m, n, h, (size_t)m_padded, 1, T, work);
+    multiply(n, m, n, T, 1, (size_t)n, work, out);
   }
 }

@@ -255,7 +255,8 @@ static fs_status run_stages(course *c) {
   double last = c->setup.param[0];
   int32_t n = fs_stages_plan(&c->setup, c->options, c->n_coarse, stages);
   bool is_over = false;
-  c->damping = (fs_damping){.nu = fs_is_quadratic(c->setup.functional) ? 0 : 1};
+  /* coarse displacements are smooth and trials cheap: far less damping than a raw mesh needs */
+  c->damping = (fs_damping){.nu = fs_is_quadratic(c->setup.functional) ? 0 : c->n_coarse > 0 ? 1e-3 : 1};
   for (int32_t i = 0; i < n && !is_over; i++) {
     if (c->options->along_normals) stages[i].depth = 1;
     FS_TRY(run_stage(c, &stages[i], &is_over));
