@@ -94,6 +94,10 @@ static void put_report(FILE *file, const arguments *a, const fs_fair_report *r, 
   put_number(file, "space", t->space, ", ");
   put_number(file, "fair", t->fair, ", ");
   put_number(file, "export", t->export, ", ");
+  put_number(file, "gradients", r->costs.gradients, ", "); /* processor seconds */
+  put_number(file, "hessians", r->costs.hessians, ", ");
+  put_number(file, "analysis", r->costs.analysis, ", ");
+  put_number(file, "factorisations", r->costs.factorisations, ", ");
   put_number(file, "total", t->total, "},\n  ");
   put_number(file, "peak_bytes", peak_bytes(), "\n}\n");
 }

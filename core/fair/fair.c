@@ -7,6 +7,7 @@
    all nodes and converge quadratically. As C falls, minima turn into saddles, at which symmetric surfaces would stay: where
    the last factorisation of a stage does not show a minimum, fs_leave_saddle looks for the way down. */
 #include "fair/along_normals.h"
+#include "base/clock.h"
 #include "fair/constrain.h"
 #include "fair/smooth_start.h"
 #include "fair/stages.h"
@@ -14,7 +15,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 enum { NORMALS_KEPT = 3 }; /* steps along the same normals */
 enum { MAX_ITERATIONS = 100, MAX_SADDLES = 4, MAX_ROUNDS = 12, WALL_SHARE = 100 };
@@ -40,21 +40,15 @@ typedef struct course {
   double *x, *y, *g, gradient_start; /* x: the unknowns of depth 0; y: those of others, while they are */
   double *begin, excess;             /* with a wall: x at the start, and how far samples are beyond it */
   int32_t n_rounds;                  /* so many times the last stage was begun with the same wall */
-  struct timespec start;
-  int32_t n_earlier_steps;   /* of the stages before */
-  int32_t n_stages;          /* before */
-  double last_damping;       /* in the last factorisation */
-  double value, begin_value; /* at x, and at the start of the last minimisation */
+  double start;                      /* seconds */
+  int32_t n_earlier_steps;           /* of the stages before */
+  int32_t n_stages;                  /* before */
+  double last_damping;               /* in the last factorisation */
+  double value, begin_value;         /* at x, and at the start of the last minimisation */
   bool is_out_of_time;
 } course;
 
 /* ---- stages ------------------------------------------------------------------------------------------------------ */
-
-static double seconds_since(const struct timespec *start) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
-}
 
 static bool record(void *user, const fs_minimise_step *m) {
   course *c = user;
@@ -67,7 +61,7 @@ static bool record(void *user, const fs_minimise_step *m) {
                   .length = m->length,
                   .gain = m->gain,
                   .n_factorisations = m->n_factorisations,
-                  .seconds = seconds_since(&c->start),
+                  .seconds = fs_clock_seconds() - c->start,
                   .c = fs_setup_c(&c->setup)};
   if (m->number == 0) c->begin_value = m->value;
   if (m->number == 0 && c->n_earlier_steps > 0) return true; /* the start of a later stage */
@@ -82,8 +76,17 @@ static bool record(void *user, const fs_minimise_step *m) {
   return !c->is_out_of_time;
 }
 
+static void add_costs(fs_costs *costs, const fs_solver *solver) {
+  fs_solver_costs more = fs_solver_get_costs(solver);
+  costs->analysis += more.analysis;
+  costs->factorisations += more.factorisations;
+  costs->factor_flops = fmax(costs->factor_flops, more.flops);
+  costs->factor_bytes = fmax(costs->factor_bytes, more.bytes);
+}
+
 /* Back to depth 0. */
 static void leave_depth(course *c) {
+  if (c->solver != NULL) add_costs(&c->setup.costs, c->solver);
   fs_solver_free(c->ctx, c->solver);
   c->solver = NULL;
   fs_release(c->ctx, c->y);
@@ -100,7 +103,7 @@ static fs_status enter_depth(course *c, int32_t depth) {
   if (c->solver != NULL && c->depth == depth) return FS_OK;
   leave_depth(c);
   c->damping.is_factored = false;
-  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = fmin(c->damping.nu, FINER_DAMPING)};
+  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = FINER_DAMPING};
   if (depth > 0) {
     reduction = c->coarse[depth - 1];
     c->coarse[depth - 1] = NULL;
@@ -393,7 +396,7 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
   fs_fair_report r = {.n_squares = space->n_elements, .n_caps = space->n_caps};
   fs_fair_options own = *options;
   course c = {.ctx = ctx, .options = &own, .report = &r};
-  clock_gettime(CLOCK_MONOTONIC, &c.start);
+  c.start = fs_clock_seconds();
   FS_TRY(begin_constraints(&c, space, dofs, &own));
   if (options->polish && !c.setup.functional->is_continued) {
     status = fs_fail(ctx, FS_ERR_ARGUMENT, "%s has no weight that is lowered: there is nothing to polish",
@@ -420,6 +423,7 @@ fs_status fs_fair(fs_context *ctx, const fs_space *space, const fs_fair_options 
     FS_TRY(fs_setup_measure(&c.setup, c.g, &r.end));
   }
   r.c = fs_setup_c(&c.setup);
+  r.costs = c.setup.costs;
   FS_TRY(fs_fair_quality(ctx, space, c.setup.problem->c, 0, 0, &r.quality));
   memcpy(dofs, c.setup.problem->c, (size_t)space->n_dofs * sizeof *dofs);
   if (report != NULL) *report = r;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: space, functional and fixed dofs become a function of the free dofs. */
 #include "fair/setup.h"
+#include "base/clock.h"
 
 #include <math.h>
 #include <string.h>
@@ -188,6 +189,24 @@ done:
   return status;
 }
 
+static void count_costs(fs_setup *s, fs_order order, double seconds) {
+  const fs_problem *p = s->problem;
+  double points = 0;
+  for (int32_t i = 0; i < p->space->n_elements; i++) {
+    int32_t n = p->table[p->space->element[i].extraction]->n_nodes;
+    points += (double)n * n;
+  }
+  if (order == FS_GRADIENT) {
+    s->costs.n_gradients++;
+    s->costs.points_of_gradients += points;
+    s->costs.gradients += seconds;
+  } else {
+    s->costs.n_hessians++;
+    s->costs.points_of_hessians += points;
+    s->costs.hessians += seconds;
+  }
+}
+
 static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, double *g, fs_sparse *hessian) {
   fs_status status = FS_OK;
   double integral[FS_MAX_TERMS + 2];
@@ -196,6 +215,7 @@ static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, dou
   int32_t level = s->problem->level;
   double *full_g = g;
   fs_sparse *full_hessian = hessian;
+  double begin = fs_clock_processor_seconds();
   fs_setup_place(s, x);
   if (order == FS_HESSIAN && level == FS_NODES_ALL && s->has_near_hessians) {
     FS_TRY(fs_problem_set_level(s->problem, s->n_cheap_hessians > 0 ? FS_NODES_FEW : FS_NODES_NEARLY_ALL));
@@ -209,6 +229,7 @@ static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, dou
   if (is_reduced && order >= FS_GRADIENT) fs_reduction_gather(s->reduction, s->g, g);
   if (is_after && order >= FS_HESSIAN)
     FS_TRY(fs_reduction_hessian(s->problem->ctx, s->reduction, s->problem->pattern, hessian));
+  count_costs(s, order, fs_clock_processor_seconds() - begin);
 done:
   if (s->problem->level != level) s->problem->table = s->problem->tables[s->problem->level = level];
   return status;

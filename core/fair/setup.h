@@ -23,6 +23,7 @@ typedef struct fs_setup {
      few nodes, and those after them with nearly all. */
   bool has_near_hessians;
   int32_t n_cheap_hessians;
+  fs_costs costs;
   fs_volume *volume; /* where it is kept, V^(2/3) times volume_factor stands for the area in the functional; or NULL */
   double volume_sign, volume_factor;
   fs_wall *wall;      /* added to the functional; or NULL */

@@ -2,6 +2,7 @@
 /* Single role: the solver on CHOLMOD's supernodal factorisation [Chen Davis Hager Rajamanickam 2008].
    The order is found on the graph of blocks, a ninth of the entries, and spread to the rows of the blocks. */
 #include "solve/solver.h"
+#include "base/clock.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,6 +17,7 @@ struct fs_solver {
   int *start, *row; /* scalar pattern; column j has its diagonal block first */
   double *value;
   const fs_sparse *pattern;
+  fs_solver_costs costs;
 };
 
 static fs_status failed(fs_context *ctx, const fs_solver *s, const char *what) {
@@ -100,6 +102,7 @@ fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver 
   fs_solver *s = NULL;
   int *order = NULL;
   size_t n = 3 * (size_t)pattern->n_blocks, n_entries = 9 * (size_t)pattern->col_start[pattern->n_blocks];
+  double begin = fs_clock_processor_seconds();
   FS_ALLOC(ctx, s, 1);
   s->pattern = pattern;
   cholmod_start(&s->common);
@@ -131,6 +134,8 @@ fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver 
     status = failed(ctx, s, "analysis");
     goto done;
   }
+  s->costs.flops = s->common.fl;
+  s->costs.bytes = 8.0 * (double)s->factor->xsize;
   FS_TRY(check_memory(ctx, s));
   /* made here, since the solution itself does not survive when it cannot allocate them */
   if (cholmod_ensure_dense(&s->solution, n, 1, n, CHOLMOD_REAL, &s->common) == NULL ||
@@ -139,6 +144,7 @@ fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver 
     status = failed(ctx, s, "analysis");
     goto done;
   }
+  s->costs.analysis = fs_clock_processor_seconds() - begin;
   *solver = s;
   s = NULL;
 done:
@@ -146,6 +152,8 @@ done:
   fs_solver_free(ctx, s);
   return status;
 }
+
+fs_solver_costs fs_solver_get_costs(const fs_solver *s) { return s->costs; }
 
 void fs_solver_free(fs_context *ctx, fs_solver *s) {
   if (s == NULL) return;
@@ -161,11 +169,14 @@ void fs_solver_free(fs_context *ctx, fs_solver *s) {
 }
 
 fs_status fs_solver_factor(fs_context *ctx, fs_solver *s, const fs_sparse *a, const double *shift, bool *is_definite) {
+  double begin = fs_clock_processor_seconds();
   memcpy(s->value, a->value, 9 * (size_t)a->col_start[a->n_blocks] * sizeof *a->value);
   for (int32_t j = 0; j < a->n_blocks; j++)
     for (int c = 0; c < 3; c++) s->value[s->start[3 * j + c] + c] += shift[j];
   if (!cholmod_factorize(&s->matrix, s->factor, &s->common)) return failed(ctx, s, "factorisation");
   if (s->common.status < CHOLMOD_OK) return failed(ctx, s, "factorisation");
+  s->costs.n_factorisations++;
+  s->costs.factorisations += fs_clock_processor_seconds() - begin;
   *is_definite = s->common.status != CHOLMOD_NOT_POSDEF && s->factor->minor == s->factor->n;
   return FS_OK;
 }

@@ -17,6 +17,14 @@ void fs_solver_free(fs_context *ctx, fs_solver *solver); /* NULL is allowed */
 fs_status fs_solver_factor(fs_context *ctx, fs_solver *solver, const fs_sparse *a, const double *shift,
                            bool *is_definite);
 
+/* What was done so far, and what one factorisation takes. */
+typedef struct fs_solver_costs {
+  int32_t n_factorisations;
+  double analysis, factorisations; /* processor seconds, of all threads together */
+  double flops, bytes;             /* of one factorisation, and of its factor */
+} fs_solver_costs;
+fs_solver_costs fs_solver_get_costs(const fs_solver *solver);
+
 /* x = (A + diag(shift))^-1 b, both [3 n_blocks]; may be the same array. */
 fs_status fs_solver_solve(fs_context *ctx, fs_solver *solver, const double *b, double *x);
 

@@ -174,6 +174,15 @@ typedef struct fs_fair_options {
   void *monitor_user;                                                 /* for both */
 } fs_fair_options;
 
+/* Where the time of a fairing went: processor seconds, those of all threads of the process together. */
+typedef struct fs_costs {
+  int32_t n_gradients, n_hessians;                /* evaluations, each with what comes before it in the other */
+  double points_of_gradients, points_of_hessians; /* quadrature points of all of them together */
+  double gradients, hessians;
+  double analysis, factorisations;   /* orders of elimination, on all levels; numeric factorisations */
+  double factor_flops, factor_bytes; /* of one factorisation of the largest matrix, and of its factor */
+} fs_costs;
+
 enum { FS_MAX_TRACE = 256 };
 typedef struct fs_fair_report {
   const fs_functional *functional; /* the one used, which may be when_nothing_is_fixed of the one asked for */
@@ -184,6 +193,7 @@ typedef struct fs_fair_report {
   int32_t n_coarse;                  /* meshes of which this one is a refinement, whose displacements came first */
   int32_t n_steps, n_hessians, n_factorisations;
   int32_t n_saddles; /* stationary points that were no minima, and were left */
+  fs_costs costs;    /* of the minimisation */
   double distance;   /* with a tolerance: the largest distance from the target that was measured at the end */
   double kept; /* where nothing is fixed: the area or the volume at the end, divided by that at the start, minus 1 */
   double c;    /* weight of Q in F; 0 where the functional has no such term */
