@@ -38,6 +38,8 @@ typedef struct arguments {
   const char *name;           /* of the object in the files, or NULL: the stem */
   const char *fixed, *report; /* files, or NULL */
   const char *every;          /* folder for every iterate, or NULL */
+  const char *film;           /* likewise for their scenes */
+  double film_param[MAX_PARAM_VALUES];
   bool json, no_refine, quiet, start_triharmonic, polish, along_normals;
   double max_seconds, stop_decrease; /* 0: no limit, that of the library */
   int32_t refine, nodes, threads, blas_threads;
@@ -108,15 +110,22 @@ fs_status write_report(fs_context *ctx, const char *path, const arguments *argum
                        const timings *seconds);
 void print_report(FILE *file, const arguments *arguments, const fs_fair_report *report, const timings *seconds);
 
-/* Every iterate as a file: what --every asks for. */
+/* Every iterate as a file: what --every and --film ask for. */
 typedef struct iterates {
   const char *folder; /* NULL: none */
   const fs_mesh *mesh;
   const fs_space *space;
+  const char *film;         /* folder for the scenes of a film, or NULL */
+  const double *film_param; /* of their exporter */
+  int32_t n_frames;
   fs_status status; /* of the first file that could not be written */
 } iterates;
 fs_status begin_iterates(fs_context *ctx, iterates *iterates); /* makes the folder where it is not there */
 bool write_iterate(fs_context *ctx, iterates *iterates, const fs_step *step, const fs_vec3 *c); /* false: not written */
+
+fs_status begin_film(fs_context *ctx, iterates *iterates); /* makes the folder where it is not there */
+fs_status write_frame(fs_context *ctx, iterates *iterates, const fs_vec3 *c);
+fs_status end_film(fs_context *ctx, iterates *iterates); /* the scenes that show them all */
 
 double now(void); /* seconds of a steady clock */
 

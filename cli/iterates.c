@@ -36,5 +36,6 @@ static fs_status write(fs_context *ctx, const iterates *it, int32_t number, cons
 
 bool write_iterate(fs_context *ctx, iterates *it, const fs_step *step, const fs_vec3 *c) {
   if (it->folder != NULL && it->status == FS_OK) it->status = write(ctx, it, step->number, c);
+  if (it->film != NULL && it->status == FS_OK) it->status = write_frame(ctx, it, c);
   return it->status == FS_OK;
 }

@@ -153,7 +153,9 @@ enum { MANY_VERTICES = 5000 }; /* below, threads of the BLAS wait for each other
 
 static fs_status make_fair(job *j) {
   const arguments *a = j->arguments;
-  onlooker o = {isatty(STDERR_FILENO) && !a->quiet, j->ctx, {a->every, j->fine, j->space, FS_OK}};
+  onlooker o = {isatty(STDERR_FILENO) && !a->quiet,
+                j->ctx,
+                {.folder = a->every, .mesh = j->fine, .space = j->space, .film = a->film, .film_param = a->film_param}};
   fs_fair_options options = {.functional = a->functional,
                              .param = a->functional_param,
                              .mesh = j->fine,
@@ -175,10 +177,12 @@ static fs_status make_fair(job *j) {
   TRY(make_constraints(j->ctx, &a->constraints, j->fine, j->space, j->c, j->n_steps > 0, j->fixed, &j->constraints));
   fs_space_fix_caps(j->space, j->fixed);
   if (a->every != NULL) TRY(begin_iterates(j->ctx, &o.iterates));
+  if (a->film != NULL) TRY(begin_film(j->ctx, &o.iterates));
   if (j->fine->n_vertices >= MANY_VERTICES) fs_blas_set_threads(a->blas_threads);
   status = fs_fair(j->ctx, j->space, &options, j->c, &j->report);
   if (o.is_shown) fprintf(stderr, "\n");
   if (status == FS_OK) TRY(o.iterates.status);
+  if (status == FS_OK && a->film != NULL) TRY(end_film(j->ctx, &o.iterates));
   if (status == FS_OK && j->report.n_free == 0) print_note(NULL, "no vertex is free: the surface stays as it is");
   if (j->report.stop == FS_STOP_CANCELLED) print_note(NULL, "cancelled: the best surface so far is written");
   return status;

@@ -5,9 +5,10 @@
    negated coordinates, which would turn the surface inside out. */
 #include "povray.h"
 
-/* Texts in which $ stands for NAME. The helpers carry the name too, so that no name of an object can meet them. */
-static const char camera[] = "#declare $_Middle = ($_Min + $_Max) / 2;\n"
-                             "#declare $_Radius = vlength($_Max - $_Min) / 2;\n"
+/* Texts in which $ stands for NAME. The helpers carry the name too, so that no name of an object can meet them. Who includes
+   the scene may declare the camera's before: pictures of a film need the same for all. */
+static const char camera[] = "#ifndef ($_Middle) #declare $_Middle = ($_Min + $_Max) / 2; #end\n"
+                             "#ifndef ($_Radius) #declare $_Radius = vlength($_Max - $_Min) / 2; #end\n"
                              "// the object fits a cone of half angle atan(0.25) whatever the shape of the picture\n"
                              "camera {\n"
                              "  location $_Middle + vnormalize(<2.3, -2.9, 2.3>) * $_Distance\n"
@@ -94,9 +95,9 @@ fs_status fs_povray_write_scene(fs_context *ctx, const fs_povray_model *model, f
     fs_povray_file(&writer, stem(model), "curves.inc");
   }
   fs_writer_text(&writer, "\n");
-  write_text(&writer, "#declare $_Distance = ", model->name);
+  write_text(&writer, "#ifndef ($_Distance) #declare $_Distance = ", model->name);
   fs_povray_number(&writer, model->distance, 6);
-  fs_writer_text(&writer, ";\n");
+  fs_writer_text(&writer, "; #end\n");
   write_text(&writer, camera, model->name);
   write_text(&writer, scenes[scene].around, model->name);
   write_texture(&writer, "Texture", scenes[scene].texture, model->name);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The command line as a user types it, from file to file, in an empty folder. Usage: run.py --fairsurf EXE caps"""
+"""The command line as a user types it, from file to file, in an empty folder. Usage: run.py --fairsurf EXE caps|film"""
 import argparse
 import json
 import math
@@ -90,7 +90,26 @@ def caps(shell):
             need(message in said, f"{command}: {said}")
 
 
-CASES = {"caps": caps}
+def film(shell):
+    """A scene per iterate, and scenes that show them; POV-Ray, where it is installed, draws two pictures."""
+    folder = shell.folder / "film"
+    shutil.copy(SAMPLES / "star3.obj", shell.folder / "star.obj")
+    shell.run("fair star.obj --functional penalised --max-iterations 2 --pov mesh2 --pov-steps 1 --film film -q")
+    frames = sorted(path.name for path in folder.glob("iter*.pov"))
+    need(frames[:2] == ["iter0000.pov", "iter0001.pov"], f"frames {frames}")
+    need(f"Final_Frame={len(frames) - 1}\n" in (folder / "film.ini").read_text(), "the last frame of film.ini")
+    need(f'"iter{len(frames) - 1:04}.inc"' in (folder / "before_after.pov").read_text(), "the last frame beside the first")
+    need("film_Middle" in (folder / "film.pov").read_text(), "the camera of all frames")
+    shell.run("fair star.obj --max-iterations 0 --film absent/film -q", 4)
+    if shutil.which("povray") is None:
+        return
+    for scene in (["film.ini", "+KFI1", "+KFF1"], ["before_after.pov"]):
+        result = subprocess.run(["povray", *scene, "+W32", "+H24", "-D", "-GA"], cwd=folder, capture_output=True, text=True)
+        need(result.returncode == 0, f"povray {scene}: {result.stderr[-1000:]}")
+    need(len(list(folder.glob("*.png"))) == 2, "two pictures")
+
+
+CASES = {"caps": caps, "film": film}
 
 
 def main():
