@@ -7,6 +7,15 @@
 
 enum { TEST_SKIPPED = 77 }; /* exit code of a test whose data are not there */
 
+/* Sanitizers look at memory and make numbers slow. What repeats the same code for other numbers is left to other builds. */
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+enum { TEST_IS_SANITIZED = 1 };
+#elif defined __has_feature
+enum { TEST_IS_SANITIZED = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) };
+#else
+enum { TEST_IS_SANITIZED = 0 };
+#endif
+
 fs_context test_context(void);
 
 /* Counts blocks and bytes of a context, can fail one allocation, and keeps the notes of the library. */

@@ -93,6 +93,7 @@ static void check_minimum(const char *name, bool with_marks, int32_t n_free, dou
 static void test_minimum(void **state) {
   (void)state;
   check_minimum("trojnik3", true, 189, 8.194950338);
+  if (TEST_IS_SANITIZED) return;
   check_minimum("trojnik3", false, 215, 6.656088775);
   check_minimum("trojnik4", true, 945, 10.86828334);
 }
@@ -113,7 +114,7 @@ static void check_fairest(const char *name, double S, double S_polished) {
 static void test_fairest(void **state) {
   (void)state;
   check_fairest("trojnik3", 3.10357, 2.999);
-  check_fairest("trojnik4", 2.83924, 0);
+  if (!TEST_IS_SANITIZED) check_fairest("trojnik4", 2.83924, 0);
 }
 
 static void test_sizes(void **state) {
