@@ -83,6 +83,14 @@ fs_status print_info(fs_context *ctx, const arguments *arguments, const fs_mesh 
 
 /* The surface that a file holds, or that its control net gives. */
 fs_status load_surface(fs_context *ctx, const arguments *arguments, const char *path, fs_surface **surface);
+/* With its control net, where it has one; all zero at the start. */
+typedef struct loaded_surface {
+  fs_surface *surface;
+  fs_mesh *control;
+  fs_cap_notes *caps;
+} loaded_surface;
+fs_status load_with_net(fs_context *ctx, const arguments *arguments, const char *path, loaded_surface *loaded);
+void free_loaded(fs_context *ctx, loaded_surface *loaded);
 
 /* The command check. passes: whether the required continuity is there, or none was required. */
 fs_status run_check(fs_context *ctx, const arguments *arguments, bool *passes);

@@ -5,6 +5,7 @@
    int32 corner[corners], int32 cap[caps][4]. Offsets are the inner coefficients of caps, cap by cap; each cap has its vertex,
    spoke, valence and number of coefficients. A control net alone has none. */
 #include "html.h"
+#include "strokes.h"
 #include "base/base.h"
 #include "math/vec3.h"
 
@@ -86,16 +87,43 @@ static void write_net(fs_writer *writer, const fs_model *model, int32_t scene) {
   fs_writer_text(writer, "</script>");
 }
 
+/* Behind the net, in base64: float64 position[points][3], int32 line[lines][2], uint8 colour[points][3]. Positions lie a little
+   above the outside, or triangles would cover them. */
+static void write_curves(fs_writer *writer, const fs_strokes *s, double lift) {
+  fs_base64 base64 = {0};
+  fs_writer_printf(writer, "<script type=\"text/plain\" id=\"curves\" data-points=\"%d\" data-lines=\"%d\">",
+                   (int)s->n_points, (int)s->n_lines);
+  for (int32_t i = 0; i < s->n_points; i++) {
+    const fs_vec3 p = fs_vec3_add_scaled(s->position[i], s->normal[i], lift);
+    write_points(writer, &base64, 1, &p);
+  }
+  for (int32_t i = 0; i < s->n_lines; i++)
+    for (int k = 0; k < 2; k++) fs_base64_int32(&base64, writer, s->line[i][k]);
+  for (int32_t i = 0; i < s->n_points; i++)
+    for (int k = 0; k < 3; k++) fs_base64_uint8(&base64, writer, (uint8_t)lround(255 * s->colour[i][k]));
+  fs_base64_finish(&base64, writer);
+  fs_writer_text(writer, "</script>");
+}
+
 static fs_status write(fs_context *ctx, const fs_model *model, const double *param, const fs_output *output) {
   fs_writer writer;
+  fs_strokes *strokes = NULL;
+  double diagonal = 0;
   fs_status status = check(ctx, model);
   if (status != FS_OK) return status;
+  if (model->curves != NULL) {
+    diagonal = fs_strokes_extent(model->control->position, model->control->n_vertices);
+    status = fs_strokes_create(ctx, model->curves, 1e-3 * diagonal, 0.01 * diagonal, &strokes);
+    if (status != FS_OK) return status;
+  }
   fs_writer_start(&writer, ctx, output, "html");
   write_piece(&writer, FS_HTML_TITLE);
   fs_html_write_text(&writer, model->name);
   write_piece(&writer, FS_HTML_NET);
   write_net(&writer, model, (int32_t)param[SCENE]);
+  if (strokes != NULL) write_curves(&writer, strokes, 5e-4 * diagonal);
   write_piece(&writer, FS_HTML_NET + 1);
+  fs_strokes_free(ctx, strokes);
   return fs_writer_finish(&writer);
 }
 
@@ -106,4 +134,5 @@ const fs_exporter fs_exporter_html = {
     .params = params,
     .what = FS_EXPORT_NET,
     .write = write,
+    .has_curves = true,
 };

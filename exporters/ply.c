@@ -209,7 +209,7 @@ static fs_status write(fs_context *ctx, const fs_model *model, const double *par
     FS_TRY(fs_measure_vertices(ctx, model->surface, model->colour, triangles, value));
   }
   if (triangles != NULL && model->curves != NULL) {
-    double size = fs_strokes_extent(triangles);
+    double size = fs_strokes_extent(triangles->position, triangles->n_vertices);
     FS_TRY(fs_strokes_create(ctx, model->curves, 0, 0.01 * size, &strokes));
     if (strokes->n_points > INT32_MAX - triangles->n_vertices) {
       status = fs_fail(ctx, FS_ERR_UNSUPPORTED, "the curves and triangles have more points than a PLY file can number");

@@ -95,11 +95,10 @@ done:
   return status;
 }
 
-double fs_strokes_extent(const fs_triangles *triangles) {
+double fs_strokes_extent(const fs_vec3 *position, int32_t n) {
   fs_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-  for (int32_t v = 0; v < triangles->n_vertices; v++)
-    low = fs_vec3_min(low, triangles->position[v]), high = fs_vec3_max(high, triangles->position[v]);
-  return triangles->n_vertices > 0 ? fs_vec3_distance(low, high) : 0;
+  for (int32_t v = 0; v < n; v++) low = fs_vec3_min(low, position[v]), high = fs_vec3_max(high, position[v]);
+  return n > 0 ? fs_vec3_distance(low, high) : 0;
 }
 
 void fs_strokes_free(fs_context *ctx, fs_strokes *s) {

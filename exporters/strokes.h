@@ -27,7 +27,7 @@ typedef struct fs_strokes {
 /* Points closer to the last one than spacing are left out; arms of crosses are as long as size. */
 fs_status fs_strokes_create(fs_context *ctx, const fs_curves *curves, double spacing, double size,
                             fs_strokes **strokes);
-double fs_strokes_extent(const fs_triangles *triangles);    /* diagonal of their box */
-void fs_strokes_free(fs_context *ctx, fs_strokes *strokes); /* NULL is allowed */
+double fs_strokes_extent(const fs_vec3 *position, int32_t n); /* diagonal of the box of points */
+void fs_strokes_free(fs_context *ctx, fs_strokes *strokes);   /* NULL is allowed */
 
 #endif

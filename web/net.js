@@ -27,6 +27,20 @@ export function readNet(element) {
   return net;
 }
 
+/* Curves on the surface, or null where the page holds none: float64 position[points][3], int32 line[lines][2],
+   uint8 colour[points][3]. */
+export function readCurves(element) {
+  if (!element) return null;
+  const nPoints = Number(element.dataset.points), nLines = Number(element.dataset.lines);
+  const bytes = decodeBase64(element.textContent), lineAt = 24 * nPoints, colourAt = lineAt + 8 * nLines;
+  if (bytes.length !== colourAt + 3 * nPoints) throw new Error('The curves of this page are damaged.');
+  return {
+    position: new Float64Array(bytes.buffer, 0, 3 * nPoints),
+    line: new Uint32Array(bytes.buffer, lineAt, 2 * nLines),
+    colour: bytes.subarray(colourAt),
+  };
+}
+
 /* Pairs of vertices, every edge once: [2 edges]. */
 export function netEdges(net) {
   const seen = new Set();

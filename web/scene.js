@@ -22,7 +22,18 @@ function findBall(points) {
   return { centre, radius: radius || 1 };
 }
 
-export function makeScene(canvas, net, triangles) {
+/* Lines with the colours of the curves, which the surface hides as it hides anything. */
+function makeCurves(curves, shrink) {
+  const lines = new BufferGeometry();
+  lines.setAttribute('position', new BufferAttribute(shrink(curves.position), 3));
+  lines.setAttribute('color', new BufferAttribute(curves.colour, 3, true));
+  lines.setIndex(new BufferAttribute(curves.line, 1));
+  const part = new LineSegments(lines, new LineBasicMaterial({ vertexColors: true }));
+  part.frustumCulled = false;
+  return part;
+}
+
+export function makeScene(canvas, net, triangles, curves) {
   const { centre, radius } = findBall(triangles.position);
   const shrink = (points) => Float32Array.from(points, (x, i) => (x - centre[i % 3]) / radius);
   const renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'low-power' });
@@ -56,6 +67,8 @@ export function makeScene(canvas, net, triangles) {
     part.visible = false;
     scene.add(part);
   }
+
+  if (curves) scene.add(makeCurves(curves, shrink));
 
   const show = {
     canvas, orbit, invalidate,

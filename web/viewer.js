@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Single role: the page: reads the net, has the surface made, and ties the controls to the scene.
-import { decodeBase64, readNet } from './net.js';
+import { decodeBase64, readCurves, readNet } from './net.js';
 import { openSurface } from './surface.js';
 import { MODES, RAMP } from './shading.js';
 import { makeScene } from './scene.js';
@@ -121,7 +121,7 @@ async function start() {
   chooseSteps();
   tessellate();
   try {
-    state.scene = makeScene(element('canvas'), net, state.triangles);
+    state.scene = makeScene(element('canvas'), net, state.triangles, readCurves(element('curves')));
   } catch (error) {
     throw new Error(`This browser cannot draw here: WebGL 2 is needed (${error.message}). The download works.`);
   }

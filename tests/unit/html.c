@@ -229,7 +229,10 @@ static void test_memory_may_fail_anywhere(void **state) {
   (void)state;
   assert_int_equal(fs_space_create(&plain, net, &space), FS_OK);
   assert_int_equal(fs_surface_create(&plain, space, net->position, &surface), FS_OK);
-  fs_model model = {.name = "net", .control = net, .surface = surface};
+  fs_curves *curves = NULL;
+  assert_int_equal(
+      fs_plot_trace(&plain, fs_plot_find("sections"), surface, (const double[]){2, 0, 0, 0.1}, NULL, &curves), FS_OK);
+  fs_model model = {.name = "net", .control = net, .surface = surface, .curves = curves};
   for (fs_status status = FS_ERR_MEMORY; status != FS_OK; n++) {
     struct test_memory memory = {.fail_at = n + 1};
     fs_context ctx = test_memory_context(&memory);
@@ -242,9 +245,40 @@ static void test_memory_may_fail_anywhere(void **state) {
     free(file.bytes);
   }
   assert_true(n > 5);
+  fs_curves_free(&plain, curves);
   fs_surface_free(&plain, surface);
   fs_space_free(&plain, space);
   fs_mesh_free(&plain, net);
+}
+
+/* One curve of three points beside the net: positions, lines, colours; positions lie a little above the outside. */
+static void test_page_holds_curves(void **state) {
+  fs_context ctx = test_context();
+  fs_mesh *net = make_net();
+  fs_curve_point point[3] = {{.position = {1, 2, 3}, .normal = {0, 0, 1}},
+                             {.position = {2, 2, 3}, .normal = {0, 0, 1}},
+                             {.position = {2, 3, 3}, .normal = {0, 0, 1}}};
+  fs_surface_curve curve = {.n_points = 3};
+  fs_curves curves = {.n_curves = 1, .n_points = 3, .curve = &curve, .point = point};
+  fs_model model = {.name = "net", .control = net, .curves = &curves};
+  memory_output file = {0};
+  const int32_t line[4] = {0, 1, 1, 2};
+  (void)state;
+  assert_int_equal(export_page(&ctx, &model, &file), FS_OK);
+  const char *start = strstr(file.bytes, "id=\"curves\" data-points=\"3\" data-lines=\"2\">");
+  assert_non_null(start);
+  size_t size;
+  unsigned char *bytes = decode(strchr(start, '>') + 1, &size);
+  assert_int_equal(size, 3 * 24 + 2 * 8 + 3 * 3);
+  for (int i = 0; i < 3; i++) {
+    fs_vec3 p;
+    memcpy(&p, bytes + 24 * i, sizeof p);
+    assert_true(p.x == point[i].position.x && p.y == point[i].position.y && p.z > 3 && p.z < 3.1);
+  }
+  assert_memory_equal(bytes + 72, line, sizeof line);
+  free(bytes);
+  free(file.bytes);
+  fs_mesh_free(&ctx, net);
 }
 
 int main(void) {
@@ -253,6 +287,7 @@ int main(void) {
       cmocka_unit_test(test_base64_has_the_values_of_its_standard),
       cmocka_unit_test(test_page_holds_the_net_bit_by_bit),
       cmocka_unit_test(test_page_holds_the_caps),
+      cmocka_unit_test(test_page_holds_curves),
       cmocka_unit_test(test_only_surfaces_of_the_net_are_taken),
       cmocka_unit_test(test_nets_without_a_surface_are_refused),
       cmocka_unit_test(test_outputs_that_fail_are_reported),
