@@ -5,6 +5,7 @@
 #include "build.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -104,7 +105,15 @@ static void write_points(const fs_mesh *mesh, int32_t f, double *at) {
   }
 }
 
-/* The surface of a mesh of triangles and quadrilaterals, to be freed by fs_surface_free. */
+/* NULL is allowed. The library frees what the library has made, and nothing else. */
+static void flat_surface_free(fs_surface *s) {
+  if (s == NULL) return;
+  free(s->patch);
+  free(s->data);
+  free(s);
+}
+
+/* The surface of a mesh of triangles and quadrilaterals. */
 static fs_status flat_surface(fs_context *ctx, const fs_mesh *mesh, fs_surface **surface) {
   fs_status status = FS_OK;
   fs_surface *s = NULL;
@@ -138,7 +147,7 @@ static fs_status flat_surface(fs_context *ctx, const fs_mesh *mesh, fs_surface *
   *surface = s;
   s = NULL;
 done:
-  fs_surface_free(ctx, s);
+  flat_surface_free(s);
   return status;
 }
 
@@ -183,7 +192,10 @@ fs_status format_write(fs_context *ctx, const fs_exporter *exporter, const layer
   if (param[COLOUR] > 0) model.colour = fs_measures[(int)param[COLOUR] - 1];
   TRY(fs_export_file(ctx, &model, param + N_COMMON, path));
 done:
-  fs_surface_free(ctx, surface);
+  if (mesh != NULL)
+    flat_surface_free(surface);
+  else
+    fs_surface_free(ctx, surface);
   fs_mesh_free(ctx, mesh);
   prepared_clear(ctx, &p);
   return status;

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The plugin's C without MeshLab: polygons from triangles with faux edges, sound or not, and back; filters on layers, and that
-   they give the memory back when they refuse or are stopped. */
+/* The plugin's C without MeshLab: polygons from triangles with faux edges, sound or not, and back; filters on layers, also where
+   they refuse or are stopped; layers in files. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <cmocka.h>
 
-#include "filters.h"
+#include "formats.h"
 #include "support.h"
 
 /* ---- faux edges ------------------------------------------------------------------------------------------------------- */
@@ -254,13 +256,100 @@ static void fills_holes(void **state) {
   }
 }
 
+/* ---- formats ---------------------------------------------------------------------------------------------------------- */
+
+/* Writes the layer into a file of a new folder, whose path goes to path; the caller removes both. */
+static void write_layer(const fs_exporter *e, const layer *l, double what, char path[64]) {
+  fs_context ctx = test_context();
+  filter_param params[MAX_FORMAT_PARAMS];
+  double value[MAX_FORMAT_PARAMS] = {0};
+  strcpy(path, "fairsurf-layer-XXXXXX");
+  assert_non_null(mkdtemp(path));
+  sprintf(path + strlen(path), "/part.%s", e->extension);
+  format_list_params(e, params);
+  for (int32_t i = 0; params[i].name != NULL; i++) value[i] = params[i].initial;
+  value[0] = what;
+  if (format_write(&ctx, e, l, value, path) != FS_OK) fail_msg("%s: %s", path, ctx.message);
+  fs_context_clear(&ctx);
+}
+
+static void remove_layer(const char *path) {
+  char folder[64], other[80];
+  strcpy(folder, path);
+  *strrchr(folder, '/') = '\0';
+  sprintf(other, "%s/part.inc", folder);
+  unlink(other);
+  assert_int_equal(unlink(path), 0);
+  assert_int_equal(rmdir(folder), 0);
+}
+
+/* All formats take a prism with its hexagons, as a control net and as it is; Draco keeps the polygons. */
+static void writes_all_formats(void **state) {
+  const fs_exporter *e;
+  (void)state;
+  for (int32_t i = 0; (e = format_exporter(i)) != NULL; i++)
+    for (int what = 0; what < 2; what++) {
+      layer l = layer_of(test_prism(6), false);
+      char path[64];
+      write_layer(e, &l, what, path);
+      if (what == 1 && strcmp(e->extension, "drc") == 0) {
+        fs_context ctx = test_context();
+        fs_mesh *mesh = NULL;
+        assert_int_equal(fs_mesh_read(&ctx, path, &mesh), FS_OK);
+        assert_int_equal(mesh->n_faces, 8);
+        assert_int_equal(mesh->n_halfedges, 36);
+        fs_mesh_free(&ctx, mesh);
+      }
+      remove_layer(path);
+      layer_clear(&l);
+    }
+}
+
+/* A cube as it is, written as STEP and read back: six patches with the area and the volume of [-1, 1]^3. */
+static void keeps_polygons_as_patches(void **state) {
+  fs_context ctx = test_context();
+  layer l = layer_of(test_cube(), false);
+  fs_surface *surface = NULL;
+  fs_shape shape;
+  char path[64];
+  (void)state;
+  write_layer(format_find("STEP"), &l, 1, path);
+  assert_int_equal(fs_surface_read(&ctx, path, &surface), FS_OK);
+  assert_int_equal(surface->n_patches, 6);
+  assert_int_equal(fs_shape_measure(&ctx, surface, 0, &shape), FS_OK);
+  assert_true(fabs(shape.area - 24) < 1e-9);
+  assert_true(fabs(shape.volume - 8) < 1e-9);
+  fs_surface_free(&ctx, surface);
+  remove_layer(path);
+  layer_clear(&l);
+}
+
+static void refuses_options(void **state) {
+  fs_context ctx = test_context();
+  layer l = layer_of(test_cube(), false);
+  double value[MAX_FORMAT_PARAMS] = {0};
+  (void)state;
+  value[0] = 2;
+  assert_int_equal(format_write(&ctx, format_find("scad"), &l, value, "never.scad"), FS_ERR_ARGUMENT);
+  assert_int_not_equal(access("never.scad", F_OK), 0);
+  assert_null(format_find("xyz"));
+  layer_clear(&l);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(joins_a_pair),   cmocka_unit_test(stale_bits_leave_triangles),
-      cmocka_unit_test(any_bits_end),   cmocka_unit_test(comes_back),
-      cmocka_unit_test(refines_a_cube), cmocka_unit_test(refuses_values),
-      cmocka_unit_test(can_be_stopped), cmocka_unit_test(rings_are_fixed),
+      cmocka_unit_test(joins_a_pair),
+      cmocka_unit_test(stale_bits_leave_triangles),
+      cmocka_unit_test(any_bits_end),
+      cmocka_unit_test(comes_back),
+      cmocka_unit_test(refines_a_cube),
+      cmocka_unit_test(refuses_values),
+      cmocka_unit_test(can_be_stopped),
+      cmocka_unit_test(rings_are_fixed),
       cmocka_unit_test(fills_holes),
+      cmocka_unit_test(writes_all_formats),
+      cmocka_unit_test(keeps_polygons_as_patches),
+      cmocka_unit_test(refuses_options),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
