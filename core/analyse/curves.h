@@ -20,9 +20,15 @@ void fs_curve_list_end(fs_curve_list *list, bool is_closed);
 fs_status fs_curve_list_mark(fs_context *ctx, fs_curve_list *list, const fs_mark *mark);
 fs_status fs_curve_list_fill(fs_context *ctx, fs_curve_list *list, fs_vec3 fill[2][3]);
 
-/* Appends the curves of a field at one level. surface has patches of four sides only. */
-fs_status fs_levels_append(fs_context *ctx, const fs_surface *surface, const fs_field *field, double level,
-                           double label, const fs_trace_options *options, fs_curve_list *list);
+/* The field at the corners of n_cells x n_cells cells of every patch, [n_patches][(n_cells + 1)^2], for many levels of one
+   field. */
+fs_status fs_field_values(fs_context *ctx, const fs_surface *surface, const fs_field *field, int32_t n_cells,
+                          double **values);
+
+/* Appends the curves of a field at one level. surface has patches of four sides only. values: of fs_field_values with the
+   n_cells of options, or NULL: they are computed. */
+fs_status fs_levels_append(fs_context *ctx, const fs_surface *surface, const fs_field *field, const double *values,
+                           double level, double label, const fs_trace_options *options, fs_curve_list *list);
 
 /* Appends the parts of the surface where the field exceeds level, as fill. */
 fs_status fs_bands_append(fs_context *ctx, const fs_surface *surface, const fs_field *field, double level,

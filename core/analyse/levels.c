@@ -27,6 +27,7 @@ typedef struct grid {
   const fs_field *field;
   double level, tolerance;
   int32_t n, n_crossings, n_segments, segment_room;
+  const double *values;        /* of all patches, or NULL */
   double *value;               /* [(n + 1)^2] of the patch at work, less the level */
   int32_t *at;                 /* [n_patches][2 n (n + 1)] crossing on that side, or FS_NONE */
   crossing *crossing;          /* [room] */
@@ -127,8 +128,11 @@ static fs_status connect_cell(grid *g, int32_t patch, int32_t i, int32_t j) {
 static fs_status search_patch(grid *g, int32_t patch) {
   fs_status status = FS_OK;
   int32_t n = g->n;
-  for (int32_t j = 0; j <= n; j++)
-    for (int32_t i = 0; i <= n; i++) g->value[i + (n + 1) * j] = value_at(g, patch, (double)i / n, (double)j / n);
+  const double *known = g->values != NULL ? g->values + (size_t)patch * (size_t)((n + 1) * (n + 1)) : NULL;
+  for (int32_t k = 0; k < (n + 1) * (n + 1); k++) {
+    double u = (double)(k % (n + 1)) / n, v = (double)(k / (n + 1)) / n;
+    g->value[k] = known != NULL ? known[k] - g->level : value_at(g, patch, u, v);
+  }
   for (int32_t j = 0; j <= n; j++)
     for (int32_t i = 0; i < n; i++) {
       FS_TRY(cross_side(g, patch, along_u(g, i, j), i, j, 1, 0));
@@ -274,12 +278,37 @@ done:
   return status;
 }
 
-fs_status fs_levels_append(fs_context *ctx, const fs_surface *surface, const fs_field *field, double level,
-                           double label, const fs_trace_options *options, fs_curve_list *list) {
+fs_status fs_field_values(fs_context *ctx, const fs_surface *surface, const fs_field *field, int32_t n_cells,
+                          double **values) {
+  fs_status status = FS_OK;
+  double *value = NULL;
+  const int32_t n = n_cells, n_corners = (n + 1) * (n + 1);
+  FS_ALLOC(ctx, value, (size_t)surface->n_patches * (size_t)n_corners);
+  for (int32_t p = 0; p < surface->n_patches; p++) {
+    for (int32_t k = 0; k < n_corners; k++)
+      value[(size_t)p * (size_t)n_corners + (size_t)k] =
+          fs_field_at(surface, field, p, (double)(k % (n + 1)) / n, (double)(k / (n + 1)) / n);
+    FS_TRY(fs_progress(ctx, "evaluate", (double)p / surface->n_patches));
+  }
+  *values = value;
+  value = NULL;
+done:
+  fs_release(ctx, value);
+  return status;
+}
+
+fs_status fs_levels_append(fs_context *ctx, const fs_surface *surface, const fs_field *field, const double *values,
+                           double level, double label, const fs_trace_options *options, fs_curve_list *list) {
   fs_status status = FS_OK;
   fs_trace_options o = fs_trace_options_complete(surface, options);
   int32_t n = o.n_cells;
-  grid g = {.ctx = ctx, .surface = surface, .field = field, .level = level, .tolerance = o.tolerance, .n = n};
+  grid g = {.ctx = ctx,
+            .surface = surface,
+            .field = field,
+            .values = values,
+            .level = level,
+            .tolerance = o.tolerance,
+            .n = n};
   FS_ALLOC(ctx, g.value, (size_t)(n + 1) * (size_t)(n + 1));
   FS_ALLOC(ctx, g.at, (size_t)surface->n_patches * (size_t)(2 * n * (n + 1)));
   for (int32_t p = 0; p < surface->n_patches; p++) {
@@ -301,13 +330,16 @@ fs_status fs_trace_levels(fs_context *ctx, const fs_surface *surface, const fs_f
   fs_status status = FS_OK;
   fs_surface *quads = NULL;
   fs_curve_list list = {0};
+  double *values = NULL;
   FS_TRY(fs_surface_to_quads(ctx, surface, &quads));
   FS_TRY(fs_curve_list_start(ctx, &list));
+  FS_TRY(fs_field_values(ctx, quads, field, fs_trace_options_complete(quads, options).n_cells, &values));
   for (int32_t i = 0; i < n_levels; i++)
-    FS_TRY(fs_levels_append(ctx, quads, field, level[i], level[i], options, &list));
+    FS_TRY(fs_levels_append(ctx, quads, field, values, level[i], level[i], options, &list));
   *curves = list.curves;
   list.curves = NULL;
 done:
+  fs_release(ctx, values);
   fs_curves_free(ctx, list.curves);
   fs_surface_free(ctx, quads);
   return status;

@@ -57,7 +57,7 @@ static fs_status trace(fs_context *ctx, const fs_surface *surface, const double 
   fs_field field = {measured, measure};
   fs_surface *quads = NULL;
   fs_curve_list list = {0};
-  double range[2], interval = param[1];
+  double range[2], interval = param[1], *values = NULL;
   FS_TRY(fs_surface_to_quads(ctx, surface, &quads));
   FS_TRY(fs_curve_list_start(ctx, &list));
   FS_TRY(find_range(ctx, quads, &field, range));
@@ -69,12 +69,14 @@ static fs_status trace(fs_context *ctx, const fs_surface *surface, const double 
                      MAX_LEVELS, range[0], range[1]);
     goto done;
   }
+  FS_TRY(fs_field_values(ctx, quads, &field, fs_trace_options_complete(quads, options).n_cells, &values));
   for (double k = ceil(range[0] / interval); interval > 0 && k * interval <= range[1]; k++)
-    FS_TRY(fs_levels_append(ctx, quads, &field, k * interval, k * interval, options, &list));
+    FS_TRY(fs_levels_append(ctx, quads, &field, values, k * interval, k * interval, options, &list));
   list.curves->is_graded = true;
   *curves = list.curves;
   list.curves = NULL;
 done:
+  fs_release(ctx, values);
   fs_curves_free(ctx, list.curves);
   fs_surface_free(ctx, quads);
   return status;

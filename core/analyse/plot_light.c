@@ -69,11 +69,15 @@ static fs_status trace_isophotes(fs_context *ctx, const fs_surface *surface, con
   fs_surface *quads = NULL;
   fs_curve_list list = {0};
   int32_t count = (int32_t)param[0];
+  double *values = NULL;
   fs_status status = start(ctx, surface, &quads, &list);
+  if (status == FS_OK)
+    status = fs_field_values(ctx, quads, &field, fs_trace_options_complete(quads, options).n_cells, &values);
   for (int32_t k = 0; k < count && status == FS_OK; k++) {
     double angle = (k + 0.5) * 180 / count;
-    status = fs_levels_append(ctx, quads, &field, cos(angle * acos(-1.0) / 180), angle, options, &list);
+    status = fs_levels_append(ctx, quads, &field, values, cos(angle * acos(-1.0) / 180), angle, options, &list);
   }
+  fs_release(ctx, values);
   return finish(ctx, status, quads, &list, curves);
 }
 
@@ -136,7 +140,7 @@ static fs_status trace_reflection(fs_context *ctx, const fs_surface *surface, co
   for (int32_t k = 0; k < (int32_t)f.count && status == FS_OK; k++) {
     double angle = k * 180 / f.count;
     f.at = light_plane(&f, angle);
-    status = fs_levels_append(ctx, quads, &field, 0, angle, options, &list);
+    status = fs_levels_append(ctx, quads, &field, NULL, 0, angle, options, &list);
   }
   return finish(ctx, status, quads, &list, curves);
 }
@@ -163,7 +167,7 @@ static fs_status trace_zebra(fs_context *ctx, const fs_surface *surface, const d
   for (int32_t k = 0; k < (int32_t)f.count && status == FS_OK; k++) {
     double angle = (k + 0.5) * 180 / f.count + 90;
     f.at = light_plane(&f, angle);
-    status = fs_levels_append(ctx, quads, &edge, 0, angle - 90, options, &list);
+    status = fs_levels_append(ctx, quads, &edge, NULL, 0, angle - 90, options, &list);
   }
   if (status == FS_OK)
     status = fs_bands_append(ctx, quads, &inside, 0, choose_cells(quads->n_patches, o.n_cells), &list);
@@ -207,7 +211,7 @@ static fs_status trace_highlight(fs_context *ctx, const fs_surface *surface, con
   for (int32_t k = 0; k < count && status == FS_OK; k++) {
     double aside = ((k + 0.5) / count - 0.5) * 2 * diagonal * (1 + param[3]);
     f.at = fs_vec3_add_scaled(fs_vec3_add_scaled(centre, f.b, param[3] * diagonal), f.a, aside);
-    status = fs_levels_append(ctx, quads, &field, 0, aside, options, &list);
+    status = fs_levels_append(ctx, quads, &field, NULL, 0, aside, options, &list);
   }
   return finish(ctx, status, quads, &list, curves);
 }

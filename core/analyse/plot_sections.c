@@ -61,7 +61,7 @@ static fs_status trace(fs_context *ctx, const fs_surface *surface, const double 
   fs_field field = {height, &m};
   fs_surface *quads = NULL;
   fs_curve_list list = {0};
-  double low = INFINITY, high = -INFINITY;
+  double low = INFINITY, high = -INFINITY, *values = NULL;
   int32_t count = (int32_t)param[0];
   FS_TRY(fs_surface_to_quads(ctx, surface, &quads));
   FS_TRY(fs_curve_list_start(ctx, &list));
@@ -70,14 +70,16 @@ static fs_status trace(fs_context *ctx, const fs_surface *surface, const double 
       double h = fs_field_at(quads, &field, p, k % 3 / 2.0, (double)(k / 3) / 2.0);
       low = fmin(low, h), high = fmax(high, h);
     }
+  FS_TRY(fs_field_values(ctx, quads, &field, fs_trace_options_complete(quads, options).n_cells, &values));
   for (int32_t k = 0; k < count; k++) {
     double h = low + (high - low) * (k + 0.5) / count;
-    FS_TRY(fs_levels_append(ctx, quads, &field, h, h, options, &list));
+    FS_TRY(fs_levels_append(ctx, quads, &field, values, h, h, options, &list));
   }
   if (param[3] > 0) add_teeth(quads, list.curves, m, param[3] * fs_surface_diagonal(quads, NULL));
   *curves = list.curves;
   list.curves = NULL;
 done:
+  fs_release(ctx, values);
   fs_curves_free(ctx, list.curves);
   fs_surface_free(ctx, quads);
   return status;
