@@ -101,6 +101,27 @@ def genus2():
     return b.mesh()
 
 
+def genus3():
+    """The outside of two plates of 3 x 3 cubes, one over the other, on four legs between their corners: three handles."""
+    solid = {(x, y, z) for x in range(3) for y in range(3) for z in range(3) if z != 1 or (x != 1 and y != 1)}
+    xs, zs = (-1.5, -0.6, 0.6, 1.5), (-1.3, -0.6, 0.6, 1.3)
+    b = Builder()
+    for cell in sorted(solid):
+        for axis in range(3):
+            for end in (0, 1):
+                beyond = tuple(c + (2 * end - 1) * (k == axis) for k, c in enumerate(cell))
+                if beyond in solid:
+                    continue
+                corners = []
+                for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))[::2 * end - 1]:
+                    step = [0, 0, 0]
+                    step[axis], step[(axis + 1) % 3], step[(axis + 2) % 3] = end, i, j
+                    x, y, z = add(cell, step)
+                    corners.append(b.vertex((x, y, z), (xs[x], xs[y], zs[z])))
+                b.faces.append(tuple(corners))
+    return b.mesh()
+
+
 def pipe(n=6, n_long=10, length=3.6):
     """Three tubes of 2 n sides, mitred: neighbours meet in a half plane, and the three seams in two vertices of valence 6.
 
@@ -277,6 +298,7 @@ MESHES = {
     "cube": (cube, "cube: all corners of valence 3", {3: 8}, 0, 0, None),
     "torus": (torus, "torus: regular and closed", {}, 0, 1, None),
     "genus2": (genus2, "block with two holes through it", {3: 8, 5: 16}, 0, 2, None),
+    "genus3": (genus3, "two plates on four legs", {3: 8, 5: 24}, 0, 3, None),
     "pipe": (pipe, "three mitred tubes, two vertices of valence 6", {6: 2}, 3, 0, from_axis_of_pipe),
     "hull": (hull, "half a ship, a vertex of valence 3 and one of valence 5", {3: 1, 5: 1}, 1, 0,
              lambda p: (0, -1, -0.3)),
