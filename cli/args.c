@@ -202,7 +202,7 @@ static void finish_outputs(struct argp_state *state, parser *p) {
     fill_params(state, p, o->exporter->params, i, o->param);
   }
   fill_params(state, p, a->functional->params, p->n_events, a->functional_param);
-  fill_params(state, p, fs_exporter_find("pov")->params, p->n_events, a->film_param);
+  if (a->film != NULL) fill_params(state, p, fs_exporter_find("pov")->params, p->n_events, a->film_param);
   fill_params(state, p, a->plot->params, p->n_events, a->plot_param);
   fill_params(state, p, a->construction->params, p->n_events, a->construction_param);
   for (int i = 0; fs_refiners[i] != NULL; i++)
