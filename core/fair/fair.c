@@ -17,10 +17,8 @@
 #include <string.h>
 
 enum { NORMALS_KEPT = 3 }; /* steps along the same normals */
-enum { MAX_ITERATIONS = 100, MAX_SADDLES = 4, MAX_ROUNDS = 24, WALL_SHARE = 100 };
+enum { MAX_ITERATIONS = 100, MAX_SADDLES = 4, MAX_ROUNDS = 12, WALL_SHARE = 100 };
 static const double WALL_EXCESS = 0.004; /* relative to the tolerance */
-static const double WALL_TOLERANCE = 1e-4,
-                    WALL_LAST_TOLERANCE = 1e-7; /* decreases while the forces are learnt, and at the end */
 
 /* Fewer free dofs are quicker at once; and the least number of coarse unknowns that is worth having. */
 enum { LEAST_FREE = 1500, LEAST_COARSE = 200 };
@@ -40,14 +38,13 @@ typedef struct course {
   fs_solver *solver;
   fs_damping damping;
   double *x, *y, *g, gradient_start; /* x: the unknowns of depth 0; y: those of others, while they are */
-  double *begin, excess;     /* with a wall: the last x that kept the tolerance; how far samples are beyond it */
-  double wall_tolerance;     /* predicted decrease at which a stage ends */
-  int32_t n_rounds;          /* so many times the last stage was begun with the same wall */
-  double start;              /* seconds */
-  int32_t n_earlier_steps;   /* of the stages before */
-  int32_t n_stages;          /* before */
-  double last_damping;       /* in the last factorisation */
-  double value, begin_value; /* at x, and at the start of the last minimisation */
+  double *begin, excess;             /* with a wall: x at the start, and how far samples are beyond it */
+  int32_t n_rounds;                  /* so many times the last stage was begun with the same wall */
+  double start;                      /* seconds */
+  int32_t n_earlier_steps;           /* of the stages before */
+  int32_t n_stages;                  /* before */
+  double last_damping;               /* in the last factorisation */
+  double value, begin_value;         /* at x, and at the start of the last minimisation */
   bool is_out_of_time;
 } course;
 
@@ -151,7 +148,7 @@ static fs_status minimise(course *c, const fs_stage *stage, const fs_objective *
                            .monitor = record,
                            .user = c};
   if (c->setup.wall != NULL) { /* the forces of the wall change after each stage */
-    o.decrease_tolerance = fmax(o.decrease_tolerance, c->wall_tolerance);
+    o.decrease_tolerance = fmax(o.decrease_tolerance, 1e-7);
   } else if (stage->is_last && stage->tolerance <= 1e-12 && !options->along_normals) {
     o.is_newton = true;
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
@@ -238,24 +235,19 @@ done:
 static fs_status press_to_wall(course *c, const fs_stage *last, bool is_over) {
   fs_status status = FS_OK;
   fs_wall *wall = c->setup.wall;
-  double tolerance = c->options->constraints->tolerance, limit = (1 - 1e-12) * tolerance, distance, before;
+  double tolerance = c->options->constraints->tolerance, distance, before;
   int32_t face;
   for (c->n_rounds = 1; c->n_rounds <= MAX_ROUNDS && !is_over; c->n_rounds++) {
     if (c->excess <= WALL_EXCESS * tolerance) {
       FS_TRY(fs_wall_measure(wall, &distance, &face));
-      if (distance <= limit) { /* the next round is more precise; whatever comes, there is a way back to here */
-        memcpy(c->begin, c->x, 3 * (size_t)fs_setup_n(&c->setup) * sizeof *c->x);
-        if (c->wall_tolerance <= WALL_LAST_TOLERANCE) break;
-        c->wall_tolerance *= 0.1;
-      } else {
-        wall->limit -= 1.1 * (distance - tolerance); /* there is more between the samples */
-      }
+      if (distance <= tolerance) break;
+      wall->limit -= 1.1 * (distance - tolerance); /* there is more between the samples */
     }
     before = c->excess;
     FS_TRY(run_stage(c, last, &is_over));
     if (c->excess > 0.25 * before) wall->stiffness *= 4;
   }
-  FS_TRY(fs_stay_near_retract(&c->setup, limit, c->begin, c->x, &c->report->distance));
+  FS_TRY(fs_stay_near_retract(&c->setup, (1 - 1e-12) * tolerance, c->begin, c->x, &c->report->distance));
 done:
   return status;
 }
@@ -321,7 +313,6 @@ static fs_status begin_near(course *c) {
     return fs_fail(c->ctx, FS_ERR_UNSUPPORTED, "a tolerance needs the start as it is, not the triharmonic surface");
   FS_ALLOC(c->ctx, c->begin, n);
   memcpy(c->begin, c->x, n * sizeof *c->begin);
-  c->wall_tolerance = WALL_TOLERANCE;
   FS_TRY(fs_stay_near_begin(&c->setup, c->options->constraints, c->x));
 done:
   return status;

@@ -175,9 +175,6 @@ static void state_free(fs_context *ctx, state *t) {
 /* Below this, relative to f, decreases drown in rounding and the gradient alone tells whether a step is good. */
 static const double rounding = 1e-13;
 
-/* Above this damping a step promises little because it is short, not because there is little to gain. */
-static const double damped_out = 10;
-
 /* f and the gradient at x + s; *gain = what the step brings by what was predicted. */
 static fs_status try_step(const fs_objective *o, state *t, double predicted, double *gain) {
   fs_status status = FS_OK;
@@ -307,7 +304,7 @@ static fs_status is_done(fs_context *ctx, const fs_objective *o, const fs_minimi
     return FS_OK;
   }
   if (options->gradient_tolerance == 0 && t->predicted <= options->decrease_tolerance * fabs(t->f) &&
-      t->step.gain > 0.5 && t->step.gain < 2 && t->nu_factored <= damped_out) {
+      t->step.gain > 0.5 && t->step.gain < 2) {
     r->stop = FS_MINIMISE_DECREASE;
     return FS_OK;
   }
