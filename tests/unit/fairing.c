@@ -303,6 +303,25 @@ static bool keep_iterate(void *user, const fs_step *step, const fs_vec3 *c) {
   return step->number < 3;
 }
 
+/* F by all nodes at every iterate: stages that see few of them report other values. */
+typedef struct fall {
+  const fs_space *space;
+  const fs_fair_options *options;
+  double F;
+} fall;
+
+static bool falls(void *user, const fs_step *step, const fs_vec3 *c) {
+  fall *f = user;
+  fs_context ctx = test_context();
+  fs_energy energy;
+  fs_fair_options options = *f->options;
+  options.iterate = NULL;
+  assert_int_equal(fs_fair_energy(&ctx, f->space, &options, c, &energy), FS_OK);
+  assert_true(step->number == 0 || energy.F <= f->F);
+  f->F = energy.F;
+  return true;
+}
+
 static bool cancel_at_once(void *user, const char *stage, double fraction) {
   int *n_left = user;
   (void)stage, (void)fraction;
@@ -327,9 +346,14 @@ static void test_course(void **state) {
   const fs_functional *penalised = fs_functional_find("penalised");
   fs_fair_options options = {.functional = penalised, .fixed = fixed};
 
-  /* falling within every stage, the gradient 1e-8 of its start */
+  /* monotone, the gradient 1e-8 of its start */
   memcpy(c, start, (size_t)space->n_dofs * sizeof *c);
+  fall fall = {.space = space, .options = &options};
+  options.iterate = falls;
+  options.monitor_user = &fall;
   assert_int_equal(fs_fair(&ctx, space, &options, c, &full), FS_OK);
+  options.iterate = NULL;
+  options.monitor_user = NULL;
   assert_int_equal(full.stop, FS_STOP_GRADIENT);
   assert_true(full.end.gradient <= 1e-8 * full.start.gradient);
   for (int32_t i = 1; i < full.n_trace; i++)
