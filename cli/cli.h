@@ -128,10 +128,9 @@ typedef struct iterates {
   int32_t n_frames;
   fs_status status; /* of the first file that could not be written */
 } iterates;
-fs_status begin_iterates(fs_context *ctx, iterates *iterates); /* makes the folder where it is not there */
+fs_status begin_iterates(fs_context *ctx, const iterates *iterates); /* makes the folders that are not there */
 bool write_iterate(fs_context *ctx, iterates *iterates, const fs_step *step, const fs_vec3 *c); /* false: not written */
 
-fs_status begin_film(fs_context *ctx, iterates *iterates); /* makes the folder where it is not there */
 fs_status write_frame(fs_context *ctx, iterates *iterates, const fs_vec3 *c);
 fs_status end_film(fs_context *ctx, iterates *iterates); /* the scenes that show them all */
 

@@ -3,9 +3,7 @@
    camera; before_after.pov, the first and the last beside each other. */
 #include "cli.h"
 
-#include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* The object of every iterate is called film, so that one scene shows any of them. */
 static const char film_scene[] =
@@ -47,12 +45,6 @@ enum { MAX_PATH = 4096 };
 static fs_status path_of(fs_context *ctx, const iterates *it, const char *name, char path[MAX_PATH]) {
   if (snprintf(path, MAX_PATH, "%s/%s", it->film, name) < MAX_PATH) return FS_OK;
   snprintf(ctx->message, sizeof ctx->message, "the path of %.200s is too long", it->film);
-  return FS_ERR_IO;
-}
-
-fs_status begin_film(fs_context *ctx, iterates *it) {
-  if (mkdir(it->film, 0777) == 0 || errno == EEXIST) return FS_OK;
-  snprintf(ctx->message, sizeof ctx->message, "%.200s: %s", it->film, strerror(errno));
   return FS_ERR_IO;
 }
 

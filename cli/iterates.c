@@ -6,10 +6,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
-fs_status begin_iterates(fs_context *ctx, iterates *it) {
-  if (mkdir(it->folder, 0777) == 0 || errno == EEXIST) return FS_OK;
-  snprintf(ctx->message, sizeof ctx->message, "%s: %s", it->folder, strerror(errno));
+static fs_status make_folder(fs_context *ctx, const char *path) {
+  if (path == NULL || mkdir(path, 0777) == 0 || errno == EEXIST) return FS_OK;
+  snprintf(ctx->message, sizeof ctx->message, "%.200s: %s", path, strerror(errno));
   return FS_ERR_IO;
+}
+
+fs_status begin_iterates(fs_context *ctx, const iterates *it) {
+  fs_status status = make_folder(ctx, it->folder);
+  return status == FS_OK ? make_folder(ctx, it->film) : status;
 }
 
 static fs_status write(fs_context *ctx, const iterates *it, int32_t number, const fs_vec3 *c) {

@@ -176,8 +176,7 @@ static fs_status make_fair(job *j) {
   TRY(add_marks(j));
   TRY(make_constraints(j->ctx, &a->constraints, j->fine, j->space, j->c, j->n_steps > 0, j->fixed, &j->constraints));
   fs_space_fix_caps(j->space, j->fixed);
-  if (a->every != NULL) TRY(begin_iterates(j->ctx, &o.iterates));
-  if (a->film != NULL) TRY(begin_film(j->ctx, &o.iterates));
+  TRY(begin_iterates(j->ctx, &o.iterates));
   if (j->fine->n_vertices >= MANY_VERTICES) fs_blas_set_threads(a->blas_threads);
   status = fs_fair(j->ctx, j->space, &options, j->c, &j->report);
   if (o.is_shown) fprintf(stderr, "\n");
