@@ -82,7 +82,6 @@ done:
 static fs_status find_step(fs_context *ctx, const fs_objective *o, state *t, fs_minimise_report *report,
                            int32_t *n_factorisations) {
   fs_status status = FS_OK;
-  bool has_failed = false;
   while (true) {
     for (int32_t i = 0; i < t->n; i++) t->shift[i] = t->nu * t->diagonal[i];
     FS_TRY(fs_solver_factor(ctx, t->solver, &t->hessian, t->shift, &t->is_factored));
@@ -94,9 +93,7 @@ static fs_status find_step(fs_context *ctx, const fs_objective *o, state *t, fs_
       goto done;
     }
     t->nu_failed = fmax(t->nu_failed, t->nu);
-    /* after a long step along soft directions the damping is too little by far: it climbs faster and faster */
-    t->nu = t->nu == 0 ? 1e-9 : t->nu * (t->nu >= 1e-4 ? 4 : has_failed ? 100 : 10);
-    has_failed = true;
+    t->nu = t->nu == 0 ? 1e-9 : t->nu * (t->nu < 1e-4 ? 10 : 4);
   }
   fs_memory_clear(&t->memory);
   FS_TRY(solve(ctx, o, t, t->g, t->s));
@@ -120,13 +117,6 @@ static void lower_damping(state *t, double gain) {
   t->nu_failed = t->nu_failed < 1e-12 ? 0 : 0.1 * t->nu_failed;
   if (t->nu < t->nu_min) t->nu = t->nu_min;
   if (t->nu < 1e-15) t->nu = 0;
-}
-
-/* After a step that was good only when shortened: the damping that would have shortened it so, by the curvature along it. */
-static void damp_shortened(state *t, double shortened) {
-  double s_Ds = weighted_square(t), curvature = -dot(t->g, t->s, 3 * (size_t)t->n) * shortened / s_Ds - t->nu;
-  lower_damping(t, 0);
-  if (curvature > 0) t->nu = fmax(t->nu, curvature * (1 / shortened - 1));
 }
 
 static void raise_damping(state *t) {
@@ -257,10 +247,7 @@ static fs_status newton_step(fs_context *ctx, const fs_objective *o, state *t, f
     }
     raise_damping(t);
   }
-  if (shortened < 1)
-    damp_shortened(t, shortened);
-  else
-    lower_damping(t, gain);
+  lower_damping(t, shortened < 1 ? 0 : gain);
   FS_TRY(accept(ctx, t, report, gain, n_factorisations, predicted));
   *is_taken = true;
 done:
