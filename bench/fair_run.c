@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RIM = 3 };
 static const double NOISE = 0.05;
 
 static void check(const fs_context *ctx, fs_status status) {
@@ -29,8 +28,8 @@ static double next_random(uint32_t *state) {
   return *state / 2147483648.0 - 1;
 }
 
-static fs_mesh *make_sheet(fs_context *ctx, int n) {
-  int side = n + 2 * RIM, n_faces = (side - 1) * (side - 1);
+fs_mesh *bench_make_sheet(fs_context *ctx, int n) {
+  int side = n + 2 * BENCH_RIM, n_faces = (side - 1) * (side - 1);
   fs_vec3 *position = allocate((size_t)side * (size_t)side, sizeof *position);
   int32_t *start = allocate((size_t)n_faces + 1, sizeof *start),
           *corner = allocate(4 * (size_t)n_faces, sizeof *corner);
@@ -40,7 +39,7 @@ static fs_mesh *make_sheet(fs_context *ctx, int n) {
   for (int j = 0; j < side; j++)
     for (int i = 0; i < side; i++) {
       fs_vec3 *p = &position[j * side + i];
-      bool is_free = i >= RIM && i < side - RIM && j >= RIM && j < side - RIM;
+      bool is_free = i >= BENCH_RIM && i < side - BENCH_RIM && j >= BENCH_RIM && j < side - BENCH_RIM;
       double noise = is_free ? NOISE * edge : 0;
       *p = (fs_vec3){i * edge, j * edge, 0.1 * sin(5 * i * edge) * cos(4 * j * edge)};
       p->x += noise * next_random(&seed);
@@ -62,7 +61,7 @@ static fs_mesh *make_sheet(fs_context *ctx, int n) {
 
 fs_fair_report bench_fair_sheet(int n, int n_threads, fs_fair_options options) {
   fs_context ctx = {.n_threads = n_threads};
-  fs_mesh *mesh = make_sheet(&ctx, n);
+  fs_mesh *mesh = bench_make_sheet(&ctx, n);
   fs_space *space = NULL;
   fs_fair_report report;
   fs_vec3 *c;
