@@ -40,9 +40,12 @@ static const fs_param params[] = {
      .max = 10},
     {0}};
 
-/* Teeth with length = curvature, then scaled so that the longest has the length asked for. */
-static void add_teeth(const fs_surface *quads, fs_curves *curves, fs_vec3 m, double length) {
-  double longest = 0;
+/* Curvatures below this part of 1 / diagonal are rounding errors of straight lines: they get no teeth. */
+static const double straight = 1e-9;
+
+/* Teeth with length = curvature, then scaled so that the longest has `part` of the diagonal. */
+static void add_teeth(const fs_surface *quads, fs_curves *curves, fs_vec3 m, double part) {
+  double longest = 0, diagonal = fs_surface_diagonal(quads, NULL);
   for (int32_t i = 0; i < curves->n_points; i++) {
     fs_curve_point *p = &curves->point[i];
     fs_vec3 x[FS_JET_SIZE];
@@ -50,8 +53,8 @@ static void add_teeth(const fs_surface *quads, fs_curves *curves, fs_vec3 m, dou
     p->tooth = fs_vec3_scale(section_curvature(x, m), -1);
     longest = fmax(longest, fs_vec3_length(p->tooth));
   }
-  for (int32_t i = 0; i < curves->n_points && longest > 0; i++)
-    curves->point[i].tooth = fs_vec3_scale(curves->point[i].tooth, length / longest);
+  double scale = longest * diagonal > straight ? part * diagonal / longest : 0;
+  for (int32_t i = 0; i < curves->n_points; i++) curves->point[i].tooth = fs_vec3_scale(curves->point[i].tooth, scale);
 }
 
 static fs_status trace(fs_context *ctx, const fs_surface *surface, const double *param, const fs_trace_options *options,
@@ -75,7 +78,7 @@ static fs_status trace(fs_context *ctx, const fs_surface *surface, const double 
     double h = low + (high - low) * (k + 0.5) / count;
     FS_TRY(fs_levels_append(ctx, quads, &field, values, h, h, options, &list));
   }
-  if (param[3] > 0) add_teeth(quads, list.curves, m, param[3] * fs_surface_diagonal(quads, NULL));
+  if (param[3] > 0) add_teeth(quads, list.curves, m, param[3]);
   *curves = list.curves;
   list.curves = NULL;
 done:
