@@ -44,6 +44,7 @@ enum {
   KEY_STOP_DECREASE,
   KEY_EVERY,
   KEY_FILM,
+  KEY_BEFORE_AFTER,
   KEY_PARAM = 2000 /* + number of a parameter in the list below */
 };
 
@@ -202,7 +203,8 @@ static void finish_outputs(struct argp_state *state, parser *p) {
     fill_params(state, p, o->exporter->params, i, o->param);
   }
   fill_params(state, p, a->functional->params, p->n_events, a->functional_param);
-  if (a->film != NULL) fill_params(state, p, fs_exporter_find("pov")->params, p->n_events, a->film_param);
+  if (a->film != NULL || a->before_after != NULL)
+    fill_params(state, p, fs_exporter_find("pov")->params, p->n_events, a->film_param);
   fill_params(state, p, a->plot->params, p->n_events, a->plot_param);
   fill_params(state, p, a->construction->params, p->n_events, a->construction_param);
   for (int i = 0; fs_refiners[i] != NULL; i++)
@@ -337,6 +339,9 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case KEY_FILM:
     a->film = text;
     break;
+  case KEY_BEFORE_AFTER:
+    a->before_after = text;
+    break;
   case KEY_THREADS:
     a->threads = parse_integer(state, "threads", text, 1, 64);
     break;
@@ -431,6 +436,10 @@ static const struct argp_option fixed_options[] = {
      0},
     {"every", KEY_EVERY, "FOLDER", 0, "write every iterate as FOLDER/iter0000.ply, …", 0},
     {"film", KEY_FILM, "FOLDER", 0, "write a POV-Ray scene of every iterate; film.ini in FOLDER renders all", 0},
+    {"before-after", KEY_BEFORE_AFTER, "FOLDER", 0,
+     "write POV-Ray scenes of the start and of the result, alone and beside "
+     "each other: before_after.pov in FOLDER",
+     0},
     {"threads", KEY_THREADS, "N", 0, "threads (1)", 0},
     {"blas-threads", KEY_BLAS_THREADS, "N", 0, "threads of the linear algebra (1); always 1 below 5000 vertices", 0},
     {"max-memory", KEY_MAX_MEMORY, "GB", 0, "stop before a factorisation would take more (default: what is available)",

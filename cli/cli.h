@@ -39,6 +39,7 @@ typedef struct arguments {
   const char *fixed, *report; /* files, or NULL */
   const char *every;          /* folder for every iterate, or NULL */
   const char *film;           /* likewise for their scenes */
+  const char *before_after;   /* folder for a scene of the first and the last, or NULL */
   double film_param[MAX_PARAM_VALUES];
   bool json, no_refine, quiet, start_triharmonic, polish, along_normals;
   double max_seconds, stop_decrease; /* 0: no limit, that of the library */
@@ -130,6 +131,18 @@ typedef struct iterates {
 } iterates;
 fs_status begin_iterates(fs_context *ctx, const iterates *iterates); /* makes the folders that are not there */
 bool write_iterate(fs_context *ctx, iterates *iterates, const fs_step *step, const fs_vec3 *c); /* false: not written */
+
+/* Files of several names in one folder. */
+fs_status make_folder(fs_context *ctx, const char *path); /* where it is not there; NULL: none */
+fs_status export_into(fs_context *ctx, const fs_model *model, const double *param, const char *folder,
+                      const char *name);
+fs_status write_text(fs_context *ctx, const char *folder, const char *name, const char *text);
+
+/* folder/before_after.pov: two surfaces beside each other, from before.inc and after.inc that declare the object. */
+fs_status write_pair(fs_context *ctx, const char *folder, const char *object, const char *before, const char *after);
+/* What --before-after asks for: those files, and the pair. */
+fs_status write_before_after(fs_context *ctx, const arguments *arguments, const fs_surface *before,
+                             const fs_surface *after);
 
 fs_status write_frame(fs_context *ctx, iterates *iterates, const fs_vec3 *c);
 fs_status end_film(fs_context *ctx, iterates *iterates); /* the scenes that show them all */

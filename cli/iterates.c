@@ -2,15 +2,7 @@
 /* Single role: every iterate of a fairing as a file, DIR/iter0000.ply, … */
 #include "cli.h"
 
-#include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
-
-static fs_status make_folder(fs_context *ctx, const char *path) {
-  if (path == NULL || mkdir(path, 0777) == 0 || errno == EEXIST) return FS_OK;
-  snprintf(ctx->message, sizeof ctx->message, "%.200s: %s", path, strerror(errno));
-  return FS_ERR_IO;
-}
 
 fs_status begin_iterates(fs_context *ctx, const iterates *it) {
   fs_status status = make_folder(ctx, it->folder);
@@ -21,19 +13,16 @@ static fs_status write(fs_context *ctx, const iterates *it, int32_t number, cons
   fs_status status;
   fs_mesh *control = NULL;
   fs_cap_notes *caps = NULL;
-  char path[4096], name[32];
-  if (snprintf(path, sizeof path, "%s/iter%04d.ply", it->folder, number) >= (int)sizeof path) {
-    snprintf(ctx->message, sizeof ctx->message, "the path of %s is too long", it->folder);
-    return FS_ERR_IO;
-  }
+  char name[32], file[40];
   snprintf(name, sizeof name, "iter%04d", number);
+  snprintf(file, sizeof file, "%s.ply", name);
   status = fs_mesh_copy(ctx, it->mesh, &control);
   if (status == FS_OK) {
     memcpy(control->position, c, (size_t)control->n_vertices * sizeof *c);
     status = fs_space_keep_caps(ctx, control, it->space, c, &caps);
   }
   if (status == FS_OK)
-    status = fs_export_file(ctx, &(fs_model){.name = name, .control = control, .caps = caps}, NULL, path);
+    status = export_into(ctx, &(fs_model){.name = name, .control = control, .caps = caps}, NULL, it->folder, file);
   fs_cap_notes_free(ctx, caps);
   fs_mesh_free(ctx, control);
   return status;

@@ -69,7 +69,7 @@ typedef struct job {
   int32_t n_steps;
   const fs_mesh *fine; /* of the last step, or the mesh as read */
   fs_space *space;
-  fs_surface *surface;
+  fs_surface *surface, *start; /* start: for --before-after only */
   bool *fixed;
   fs_vec3 *c;
   constraint_set constraints;
@@ -194,6 +194,10 @@ static fs_status write_outputs(job *j) {
   TRY(fs_space_keep_caps(j->ctx, j->control, j->space, j->c, &j->caps));
   TRY(fs_surface_create(j->ctx, j->space, j->c, &j->surface));
   if (j->constraints.symmetry != NULL) TRY(fs_surface_mirror(j->ctx, j->constraints.symmetry, j->surface));
+  if (a->command == COMMAND_FAIR && a->before_after != NULL) {
+    TRY(fs_surface_create(j->ctx, j->space, j->space->start, &j->start));
+    TRY(write_before_after(j->ctx, a, j->start, j->surface));
+  }
   for (int32_t i = 0; i < a->n_outputs; i++) {
     const output_request *o = &a->output[i];
     bool is_surface = o->is_surface || o->exporter->what == FS_EXPORT_SURFACE;
@@ -282,6 +286,7 @@ static fs_status run(job *j) {
 
 static void job_free(job *j) {
   fs_surface_free(j->ctx, j->surface);
+  fs_surface_free(j->ctx, j->start);
   free_constraints(j->ctx, &j->constraints);
   fs_cap_notes_free(j->ctx, j->caps);
   fs_space_free(j->ctx, j->space);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The command line as a user types it, from file to file, in an empty folder. Usage: run.py --fairsurf EXE caps|film"""
+"""The command line as a user types it, from file to file, in an empty folder. Usage: run.py --fairsurf EXE caps|film|pair"""
 import argparse
 import json
 import math
@@ -109,7 +109,31 @@ def film(shell):
     need(len(list(folder.glob("*.png"))) == 2, "two pictures")
 
 
-CASES = {"caps": caps, "film": film}
+def pair(shell):
+    """The start and the result beside each other, and each alone, with the settings of the exporter."""
+    folder = shell.folder / "pair"
+    shutil.copy(SAMPLES / "star3.obj", shell.folder / "star.obj")
+    line = "fair star.obj --functional penalised --max-iterations 2 --pov mesh2 --pov-steps 1 --before-after"
+    shell.run(f"{line} pair -o end.obj -q")
+    needed = {"before.inc", "before.pov", "after.inc", "after.pov", "before_after.ini", "before_after.pov"}
+    need({path.name for path in folder.iterdir()} == needed, "the files of the pair")
+    # triangles of the same surfaces as the nets give
+    shell.run("export star.obj --pov mesh2 --pov-steps 1 --name surface -o start.pov")
+    for one, other in (("before", "start"), ("after", "end")):
+        if other == "end":
+            shell.run("export end.obj --pov mesh2 --pov-steps 1 --name surface -o end.pov")
+        numbers = [path.read_text().split("mesh2")[1] for path in (folder / f"{one}.inc", shell.folder / f"{other}.inc")]
+        need(numbers[0] == numbers[1], f"{one}.inc is another surface than that of {other}.obj")
+    shell.run("fair star.obj --max-iterations 0 --before-after absent/pair -q", 4)
+    if shutil.which("povray") is None:
+        return
+    for scene in (["before_after.pov"], ["before_after.ini", "+SF9", "+EF9"], ["after.pov"]):
+        result = subprocess.run(["povray", *scene, "+W32", "+H24", "-D", "-GA"], cwd=folder, capture_output=True, text=True)
+        need(result.returncode == 0, f"povray {scene}: {result.stderr[-1000:]}")
+    need(len(list(folder.glob("*.png"))) == 3, "three pictures")
+
+
+CASES = {"caps": caps, "film": film, "pair": pair}
 
 
 def main():
