@@ -93,7 +93,7 @@ static fs_status minimise(fs_course *c, const fs_stage *stage, const fs_objectiv
                            .monitor = record,
                            .user = c};
   if (c->setup.wall != NULL) { /* the forces of the wall change after each stage */
-    o.decrease_tolerance = fmax(o.decrease_tolerance, 1e-7);
+    o.decrease_tolerance = fmax(o.decrease_tolerance, c->wall_tolerance);
   } else if (stage->is_last && stage->tolerance <= 1e-12 && !options->along_normals) {
     o.is_newton = true;
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;

@@ -20,13 +20,14 @@ typedef struct fs_course {
   fs_solver *solver;
   fs_damping damping;
   double *x, *y, *g, gradient_start; /* x: the unknowns of depth 0; y: those of others, while they are */
-  double *begin, excess;             /* with a wall: x at the start, and how far samples are beyond it */
-  int32_t n_rounds;                  /* so many times the last stage was begun with the same wall */
-  double start;                      /* seconds */
-  int32_t n_earlier_steps;           /* of the stages before */
-  int32_t n_stages;                  /* before */
-  double last_damping;               /* in the last factorisation */
-  double value, begin_value;         /* at x, and at the start of the last minimisation */
+  double *begin, excess;     /* with a wall: the last x that kept the tolerance; how far samples are beyond it */
+  double wall_tolerance;     /* predicted decrease at which a stage ends */
+  int32_t n_rounds;          /* so many times the last stage was begun with the same wall */
+  double start;              /* seconds */
+  int32_t n_earlier_steps;   /* of the stages before */
+  int32_t n_stages;          /* before */
+  double last_damping;       /* in the last factorisation */
+  double value, begin_value; /* at x, and at the start of the last minimisation */
   bool is_out_of_time;
 } fs_course;
 
