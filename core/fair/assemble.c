@@ -94,7 +94,7 @@ static void add_block(const fs_problem *p, const fs_basis_table *table, int32_t 
   if (order == FS_VALUE || is_first) return;
   p->kernels->gradient(table->n_dofs, by_dof, s->sum_df, result->gradient);
   if (order < FS_HESSIAN) return;
-  if (table->product != NULL)
+  if (table->axis != NULL)
     p->kernels->hessian_tensor(&s->tensor, block, s->sum_ddf);
   else
     p->kernels->hessian(table->n_padded, table->by_point + (size_t)block * B * N * table->n_padded, s->sum_ddf,
@@ -104,9 +104,9 @@ static void add_block(const fs_problem *p, const fs_basis_table *table, int32_t 
 static void add_element(const fs_problem *p, const fs_basis_table *table, fs_order order, scratch *s,
                         fs_element_result *result) {
   s->tensor.n_nodes = table->n_nodes;
-  s->tensor.product = table->product;
+  s->tensor.axis = table->axis;
   for (int32_t block = 0; block < table->n_blocks; block++) add_block(p, table, block, order, s, result);
-  if (order >= FS_HESSIAN && table->product != NULL) p->kernels->hessian_tensor_finish(&s->tensor, result->hessian);
+  if (order >= FS_HESSIAN && table->axis != NULL) p->kernels->hessian_tensor_finish(&s->tensor, result->hessian);
 }
 
 typedef struct batch {
@@ -138,7 +138,7 @@ static fs_status run_batch(void *user, int32_t begin, int32_t end, int32_t worke
     }
     memset(result->integral, 0, sizeof result->integral);
     if (result->order >= FS_GRADIENT) memset(result->gradient, 0, 3 * (size_t)table->n_dofs * sizeof(double));
-    if (result->order >= FS_HESSIAN && table->product == NULL)
+    if (result->order >= FS_HESSIAN && table->axis == NULL)
       memset(result->hessian, 0, 6 * (size_t)table->n_padded * (size_t)table->n_padded * sizeof(double));
     add_element(p, table, result->order, s, result);
     if (result->order < FS_HESSIAN) continue;

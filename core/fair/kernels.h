@@ -19,12 +19,12 @@
      add_scaled  to[n][block] (+)= scale[block] * from[n][block]; the first time it is stored, not added
      to_chart  z[9][3][block] = derivatives by the coordinates of the chart
      add_from_chart  sum_df, sum_ddf += scale[block] * df, ddf by the chart, turned into derivatives by (u, v); ddf NULL: none */
-/* Work space of one element; used is zero before the first block. */
+/* Work space of one element. */
+enum { FS_TENSOR_SIDE = 16, FS_TENSOR_PARTS = 10 }; /* pairs of functions of one axis; of orders by v, turned or not */
 typedef struct fs_tensor {
   int32_t n_nodes;
-  const double *product; /* [4][4][n_nodes][4][4], as in fs_basis_table */
-  uint32_t used;         /* bit g: part g of row holds something */
-  double row[16 * 9 * 16], sum[9 * 16 * 16];
+  const double *axis; /* [n_nodes][4][4], as in fs_basis_table */
+  double part[FS_TENSOR_PARTS * 9 * FS_TENSOR_SIDE], sum[9 * FS_TENSOR_SIDE * FS_TENSOR_SIDE];
 } fs_tensor;
 
 typedef void fs_density_kernel(const double *x, double *f, double *df, double *ddf);

@@ -101,19 +101,12 @@ static bool invert_chain(double T[N][N], double inverse[N][N]) {
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-/* product[o][p][node][i][k], for an extraction that is the product of `axis` (4 x 4) with itself. */
-static void fill_products(const double *segment, int32_t n_nodes, const axis *node, double *product) {
-  for (int32_t q = 0; q < n_nodes; q++) {
-    double value[4][4] = {{0}}; /* [order][function] */
+/* out[node][o][i], for an extraction that is the product of `segment` (4 x 4) with itself. */
+static void fill_axis(const double *segment, int32_t n_nodes, const axis *node, double *out) {
+  for (int32_t q = 0; q < n_nodes; q++)
     for (int o = 0; o < 4; o++)
-      for (int i = 0; i < 4; i++)
-        for (int b = 0; b < 4; b++) value[o][i] += node[q].value[o][b] * segment[4 * b + i];
-    for (int o = 0; o < 4; o++)
-      for (int p = 0; p < 4; p++)
-        for (int i = 0; i < 4; i++)
-          for (int k = 0; k < 4; k++)
-            product[(((4 * o + p) * n_nodes + q) * 4 + i) * 4 + k] = value[o][i] * value[p][k];
-  }
+      for (int i = 0; i < 4; i++, out++)
+        for (int b = 0; b < 4; b++) *out += node[q].value[o][b] * segment[4 * b + i];
 }
 
 /* One point. Points beyond the last repeat it with weight 0, so that every lane sees a regular surface. */
@@ -147,7 +140,7 @@ static fs_status allocate_arrays(fs_context *ctx, const fs_extraction *x, fs_bas
   FS_ALLOC(ctx, table->weight, n_points);
   FS_ALLOC(ctx, table->by_dof, n_points * N * (size_t)table->n_dofs);
   if (x->segment != NULL)
-    FS_ALLOC(ctx, table->product, 256 * (size_t)table->n_nodes);
+    FS_ALLOC(ctx, table->axis, 16 * (size_t)table->n_nodes);
   else
     FS_ALLOC(ctx, table->by_point, n_points * N * (size_t)table->n_padded);
   if (x->chart != NULL) {
@@ -186,7 +179,7 @@ fs_status fs_basis_create(fs_context *ctx, const fs_extraction *x, int32_t n_nod
     double w = is_padding ? 0.0 : weight[q % n_nodes] * weight[q / n_nodes];
     FS_TRY(add_point(ctx, table, x, point, &u[q % n_nodes], &v[q / n_nodes], w, jet));
   }
-  if (x->segment != NULL) fill_products(x->segment, n_nodes, u, table->product);
+  if (x->segment != NULL) fill_axis(x->segment, n_nodes, u, table->axis);
   *result = table;
   table = NULL;
 done:
@@ -204,6 +197,6 @@ void fs_basis_free(fs_context *ctx, fs_basis_table *table) {
   fs_release(ctx, table->by_point);
   fs_release(ctx, table->chart_weight);
   fs_release(ctx, table->inverse);
-  fs_release(ctx, table->product);
+  fs_release(ctx, table->axis);
   fs_release(ctx, table);
 }

@@ -258,6 +258,50 @@ static void test_contractions(void **state) {
   }
 }
 
+/* The contraction axis by axis against plain loops: rows of three nodes, one of which continues in the next block. */
+static void test_tensor(void **state) {
+  enum { NODES_OF_AXIS = 3, POINTS = NODES_OF_AXIS * NODES_OF_AXIS, M = 16, SIZE = 45 * 9 * B };
+  static const int order_u[N] = {1, 0, 2, 1, 0, 3, 2, 1, 0}, order_v[N] = {0, 1, 0, 1, 2, 0, 1, 2, 3};
+  static const int pairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
+  static double axis[NODES_OF_AXIS * 16], ddf[2 * SIZE], h[6 * M * M];
+  const fs_kernels *all[4];
+  int32_t n_sets = fs_kernels_all(all);
+  uint64_t seed = 5;
+  (void)state;
+  for (int i = 0; i < NODES_OF_AXIS * 16; i++) axis[i] = test_random_real(&seed, -1, 1);
+  for (int i = 0; i < 2 * SIZE; i++) ddf[i] = test_random_real(&seed, -1, 1);
+  for (int block = 0; block < 2; block++)
+    for (int i = 0; i < N; i++) /* blocks of equal derivatives are symmetric */
+      for (int a = 0; a < 3; a++)
+        for (int b = 0; b < a; b++)
+          memcpy(ddf + block * SIZE + (pair(i, i) * 9 + 3 * a + b) * B,
+                 ddf + block * SIZE + (pair(i, i) * 9 + 3 * b + a) * B, B * sizeof *ddf);
+  for (int32_t s = 0; s < n_sets; s++) {
+    fs_tensor tensor;
+    memset(&tensor, 255, sizeof tensor); /* not numbers */
+    memset(h, 255, sizeof h);
+    tensor.n_nodes = NODES_OF_AXIS;
+    tensor.axis = axis;
+    for (int block = 0; block < 2; block++) all[s]->hessian_tensor(&tensor, block, ddf + block * SIZE);
+    all[s]->hessian_tensor_finish(&tensor, h);
+    for (int p = 0; p < 6; p++)
+      for (int m = 0; m < M; m++)
+        for (int k = pairs[p][0] == pairs[p][1] ? m : 0; k < M; k++) {
+          double sum = 0;
+          int a = pairs[p][0], b = pairs[p][1];
+          for (int q = 0; q < POINTS; q++)
+            for (int i = 0; i < N; i++)
+              for (int j = 0; j < N; j++) {
+                const double *u = axis + q % NODES_OF_AXIS * 16, *v = axis + q / NODES_OF_AXIS * 16;
+                int at = i <= j ? pair(i, j) * 9 + 3 * a + b : pair(j, i) * 9 + 3 * b + a;
+                sum += u[4 * order_u[i] + m % 4] * v[4 * order_v[i] + m / 4] * ddf[q / B * SIZE + at * B + q % B] *
+                       u[4 * order_u[j] + k % 4] * v[4 * order_v[j] + k / 4];
+              }
+          assert_true(fabs(sum - h[(p * M + m) * M + k]) <= 1e-11);
+        }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_graphs),
@@ -266,6 +310,7 @@ int main(void) {
       cmocka_unit_test(test_sums),
       cmocka_unit_test(test_tangential_definition),
       cmocka_unit_test(test_contractions),
+      cmocka_unit_test(test_tensor),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
