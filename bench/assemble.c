@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: what the exact Hessian and the gradient cost per quadrature node, in microseconds of one core, by size:
-   assemble [SIDE…]. Everything counts: jets, density, contraction, the sparse matrix. The least of three runs. */
+   assemble [SIDE…]. Everything counts: jets, density, contraction, the sparse matrix. The least of three runs. These are the first
+   steps of a fairing, whose squares have 4 x 4 nodes; tests/speed/hessian.c measures the others. */
 #include "fair_run.h"
 
 #include <math.h>
@@ -20,6 +21,7 @@ static void measure(int n) {
 }
 
 int main(int argc, char **argv) {
+  fs_blas_set_threads(1); /* idle ones would be counted as they wait */
   if (argc == 1) measure(32);
   for (int i = 1; i < argc; i++) measure(atoi(argv[i]));
   return EXIT_SUCCESS;
