@@ -49,6 +49,8 @@ static void put_worst(FILE *f, const check_result *r, int by, bool *is_first) {
       const fs_edge *e = &r->edges->edge[w->edge];
       put(f, "parameter", w->t, ", ");
       fprintf(f, "\"patches\": [%d, %d], \"sides\": [%d, %d], ", e->patch[0], e->patch[1], e->side[0], e->side[1]);
+    } else {
+      fprintf(f, "\"parameter\": null, ");
     }
     put_point(f, "point", w->point, ", ");
     put_jumps(f, "values", w->jump);

@@ -32,6 +32,7 @@ typedef struct sheet {
   const fs_model *model;
   const double *param;
   fs_triangles *triangles;
+  fs_edges *edges; /* geometry says where patches meet that do not name each other */
   cairo_t *cairo;
   const fs_view *view;
   double scale; /* points per unit of length */
@@ -187,20 +188,34 @@ done:
   return status;
 }
 
-static void draw_borders(const sheet *s) {
+/* Whether the patches of an edge meet at an angle. */
+static bool is_sharp(const fs_surface *surface, const fs_edge *edge) {
+  const double least = acos(-1.0) / 36; /* 5 degrees */
+  for (int k = 0; k <= 4; k++) {
+    fs_edge_point point;
+    double jump[FS_N_JUMPS], curvature;
+    fs_edge_evaluate(surface, edge, k / 4.0, &point);
+    fs_jumps_between(point.jet[0], point.jet[1], edge->is_flipped, jump, &curvature);
+    if (jump[FS_JUMP_NORMAL] > least) return true;
+  }
+  return false;
+}
+
+/* Borders, and edges with an angle. */
+static void draw_edges(const sheet *s) {
   enum { N = 24 };
   const fs_surface *surface = s->model->surface;
-  fs_curve_point point[N + 1];
-  for (int32_t p = 0; p < surface->n_patches; p++)
-    for (int32_t side = 0; side < surface->patch[p].n_sides; side++) {
-      if (surface->patch[p].neighbour[side] != FS_NONE) continue;
-      for (int k = 0; k <= N; k++) {
-        double u, v;
-        fs_side_parameters(surface->patch[p].n_sides, side, (double)k / N, &u, &v);
-        point[k] = fs_curve_point_at(surface, p, u, v);
-      }
-      draw_line(s, point, N + 1, &contour_pen);
+  for (int32_t i = 0; i < s->edges->n_edges + s->edges->n_borders; i++) {
+    const fs_edge *e = &s->edges->edge[i];
+    fs_curve_point point[N + 1];
+    if (i < s->edges->n_edges && !is_sharp(surface, e)) continue;
+    for (int k = 0; k <= N; k++) {
+      double u, v, t = e->begin[0] + (e->end[0] - e->begin[0]) * k / N;
+      fs_side_parameters(surface->patch[e->patch[0]].n_sides, e->side[0], t, &u, &v);
+      point[k] = fs_curve_point_at(surface, e->patch[0], u, v);
     }
+    draw_line(s, point, N + 1, &contour_pen);
+  }
 }
 
 /* ---- views and pages --------------------------------------------------------------------------------------------- */
@@ -209,7 +224,7 @@ static fs_status draw_view(sheet *s, const fs_view *view) {
   fs_status status = FS_OK;
   s->view = view;
   if (s->model->curves != NULL) draw_fill(s);
-  draw_borders(s);
+  draw_edges(s);
   FS_TRY(draw_contours(s));
   if (s->model->curves != NULL) draw_curves(s);
 done:
@@ -317,11 +332,13 @@ fs_status fs_drawing_write(fs_context *ctx, const fs_model *model, const double 
   layout l = {0};
   fs_writer writer;
   FS_TRY(fs_tessellate(ctx, model->surface, choose_steps(model->surface), &s.triangles));
+  FS_TRY(fs_edges_create(ctx, model->surface, 0, &s.edges));
   FS_TRY(make_layout(ctx, s.triangles, model->curves, param, &l));
   fs_writer_start(&writer, ctx, output, extension);
   FS_TRY(draw(&s, &l, &writer, open));
 done:
   for (int32_t i = 0; i < 4; i++) fs_view_clear(ctx, &l.view[i]);
+  fs_edges_free(ctx, s.edges);
   fs_triangles_free(ctx, s.triangles);
   return status;
 }

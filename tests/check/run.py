@@ -56,7 +56,7 @@ def check_g2(arguments, path):
     worst = found["worst"]
     need(worst[0]["by"] == "curvature" and worst[0]["values"]["curvature"] == found["max"]["curvature"],
          f"{path.name}: the first of the worst is not the largest")
-    need(all({"edge", "point", "values"} <= set(entry) for entry in worst), f"{path.name}: an entry lacks a key")
+    need(all({"edge", "parameter", "point", "values"} <= set(entry) for entry in worst), f"{path.name}: an entry lacks a key")
     return found
 
 

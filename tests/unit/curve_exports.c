@@ -3,6 +3,7 @@
    points are hidden. */
 #include <fairsurf/analyse_curves.h>
 #include "../support/support.h"
+#include "analyse_samples.h"
 #include "graph_samples.h"
 #include "memory_output.h"
 #include <math.h>
@@ -171,6 +172,26 @@ static void test_hidden(void **state) {
   fs_triangles_free(&ctx, triangles);
 }
 
+/* A square beside two of half its side, z = slope x on the right: T-junctions are no borders, angles are drawn. */
+static void test_drawn_edges(void **state) {
+  static const double flat[4] = {0};
+  (void)state;
+  for (int slope = 0; slope < 2; slope++) {
+    fs_surface *s = sample_empty();
+    double tilted[4] = {0, slope, 0, 0};
+    int n_lines = 0;
+    sample_add_graph(s, 1, 1, flat, -1, 1, 0, 1);
+    sample_add_graph(s, 1, 1, tilted, 0, 0.5, 0, 0.5);
+    sample_add_graph(s, 1, 1, tilted, 0, 0.5, 0.5, 0.5);
+    sample drawn = {.surface = *s, .curves = NULL};
+    memory_output file = write_sample(&drawn, "svg", "view-elevation", 80);
+    for (const char *at = file.bytes; (at = strstr(at, "stroke:rgb(0%,0%,0%)")) != NULL; at++) n_lines++;
+    assert_int_equal(n_lines, 3 + 2 + 2 + 2 * slope);
+    free(file.bytes);
+    sample_grown_free(s);
+  }
+}
+
 static void test_drawings(void **state) {
   sample s;
   (void)state;
@@ -190,10 +211,11 @@ static void test_drawings(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_ply),    cmocka_unit_test(test_povray),
-      cmocka_unit_test(test_glb),    cmocka_unit_test(test_every_allocation_may_fail),
+      cmocka_unit_test(test_ply),      cmocka_unit_test(test_povray),
+      cmocka_unit_test(test_glb),      cmocka_unit_test(test_every_allocation_may_fail),
 #ifdef FS_HAVE_CAIRO
-      cmocka_unit_test(test_hidden), cmocka_unit_test(test_drawings),
+      cmocka_unit_test(test_hidden),   cmocka_unit_test(test_drawn_edges),
+      cmocka_unit_test(test_drawings),
 #endif
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
