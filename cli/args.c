@@ -427,7 +427,7 @@ static const struct argp_option fixed_options[] = {
     {"fixed", KEY_FIXED, "FILE", 0, "vertices that stay besides the rim: numbers from 0, one per line", 0},
     {"start", KEY_START, "WHAT", 0, "mesh: the given positions; triharmonic: the minimum of a linear problem", 0},
     {"nodes", KEY_NODES, "N", 0, "Gauss nodes per direction, everywhere (default: 8 on squares, 12 in caps)", 0},
-    {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (100, or 400 with --stay-within); 0 only measures", 0},
+    {"max-iterations", KEY_ITERATIONS, "N", 0, "steps at most (300, or 400 with --stay-within); 0 only measures", 0},
     {"polish", KEY_POLISH, NULL, 0, "go on with a hundredth of C: a little fairer, takes longer", 0},
     {"along-normals", KEY_ALONG_NORMALS, NULL, 0,
      "move vertices along the normals only: keeps the parametrisation, the result depends on the start", 0},

@@ -8,8 +8,7 @@
 #include <string.h>
 
 enum { NORMALS_KEPT = 3 }; /* steps along the same normals */
-enum { MAX_ITERATIONS = 100, MAX_SADDLES = 4 };
-static const double FINER_DAMPING = 1e-6; /* to begin with after a coarser mesh */
+enum { MAX_ITERATIONS = 300, MAX_ITERATIONS_WALL = 400, MAX_SADDLES = 4 };
 
 static bool record(void *user, const fs_minimise_step *m) {
   fs_course *c = user;
@@ -63,7 +62,7 @@ static fs_status enter_depth(fs_course *c, int32_t depth) {
   if (c->solver != NULL && c->depth == depth) return FS_OK;
   fs_course_leave_depth(c);
   c->damping.is_factored = false;
-  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = FINER_DAMPING};
+  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = FS_FINER_DAMPING};
   if (depth > 0) {
     reduction = c->coarse[depth - 1];
     c->coarse[depth - 1] = NULL;
@@ -83,7 +82,7 @@ static fs_status minimise(fs_course *c, const fs_stage *stage, const fs_objectiv
   const fs_fair_options *options = c->options;
   int32_t max_iterations = options->max_iterations;
   fs_minimise_report m;
-  if (max_iterations == 0) max_iterations = c->setup.wall != NULL ? 4 * MAX_ITERATIONS : MAX_ITERATIONS;
+  if (max_iterations == 0) max_iterations = c->setup.wall != NULL ? MAX_ITERATIONS_WALL : MAX_ITERATIONS;
   max_iterations -= c->n_earlier_steps;
   fs_minimise_options o = {.max_iterations =
                                options->along_normals && max_iterations > NORMALS_KEPT ? NORMALS_KEPT : max_iterations,

@@ -21,7 +21,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_SHORTENED = 3 };
+enum { MAX_SHORTENED = 3, MAX_LENGTH = 100 };
 enum { MAX_TRIALS = 60 }; /* factorisations for one step: nu has grown beyond any use by then */
 /* Of a quasi-Newton step: its predicted decrease by that of the step before; with a factorisation from before the start, which
    belongs to another function, and with one of our own. */
@@ -102,8 +102,9 @@ done:
   return status;
 }
 
-static void lower_damping(state *t, double gain) {
-  if (fabs(gain - 1) < 0.002) { /* the model is right: what failed was elsewhere */
+/* has_failed: the step took several factorisations. */
+static void lower_damping(state *t, double gain, bool has_failed) {
+  if (fabs(gain - 1) < 0.002 && !has_failed) { /* the model is right: what failed was elsewhere */
     t->nu *= 1e-4;
     t->nu_failed *= 1e-3;
   } else if (gain > 0.9)
@@ -221,6 +222,30 @@ done:
   return status;
 }
 
+/* Longer steps in the direction of a good one that damping kept short, at a gradient each: along it the model falls up to
+   t = a / (a - nu d.D d), or for ever. Near saddles this is the way down, and saves many a factorisation. */
+static fs_status lengthen_step(const fs_objective *o, state *t, double *predicted, double *gain) {
+  fs_status status = FS_OK;
+  size_t n = 3 * (size_t)t->n;
+  double a = -dot(t->g, t->s, n), curvature = a - t->nu * weighted_square(t), length = 1;
+  double best = curvature > 0 ? a / curvature : INFINITY;
+  while (length < MAX_LENGTH && best > 2 * length && *gain > 0.75) {
+    double factor = fmin(best / length, 3), f = t->f_trial, old_predicted = *predicted, old_gain = *gain;
+    length *= factor;
+    for (size_t k = 0; k < n; k++) t->s[k] *= factor;
+    *predicted = a * length - 0.5 * curvature * length * length;
+    FS_TRY(try_step(o, t, *predicted, gain));
+    if (t->f_trial<f && * gain> 0.5) continue;
+    for (size_t k = 0; k < n; k++) t->s[k] /= factor; /* too long: back to the one before */
+    *predicted = old_predicted;
+    FS_TRY(try_step(o, t, *predicted, gain));
+    *gain = old_gain;
+    break;
+  }
+done:
+  return status;
+}
+
 /* Takes steps of growing damping from x until one is accepted. *is_stuck: none is, down to rounding. */
 static fs_status newton_step(fs_context *ctx, const fs_objective *o, state *t, fs_minimise_report *report,
                              bool *is_taken, bool *is_stuck) {
@@ -247,7 +272,8 @@ static fs_status newton_step(fs_context *ctx, const fs_objective *o, state *t, f
     }
     raise_damping(t);
   }
-  lower_damping(t, shortened < 1 ? 0 : gain);
+  if (shortened == 1) FS_TRY(lengthen_step(o, t, &predicted, &gain));
+  lower_damping(t, shortened < 1 ? 0 : gain, n_factorisations > 1);
   FS_TRY(accept(ctx, t, report, gain, n_factorisations, predicted));
   *is_taken = true;
 done:

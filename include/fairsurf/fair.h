@@ -158,7 +158,7 @@ typedef struct fs_fair_options {
   const fs_constraints *constraints;   /* NULL: none */
   int32_t n_nodes_square, n_nodes_cap; /* Gauss nodes per direction; 0: 8 on squares, 12 in caps; at most 32 */
   double max_seconds;                  /* 0: no limit */
-  int32_t max_iterations;    /* 0: 100, or 400 with a tolerance; negative: none, only the energies are reported */
+  int32_t max_iterations;    /* 0: 300, or 400 with a tolerance; negative: none, only the energies are reported */
   double gradient_tolerance; /* relative to the start; 0: 1e-8 */
   double decrease_tolerance; /* above 0: stop where a step promises less than this part of the functional; then the
                                 gradient is not asked for */
@@ -190,7 +190,7 @@ typedef struct fs_fair_report {
   int32_t n_free, n_squares, n_caps; /* free dofs (a dof is a point), elements, special vertices */
   int32_t n_free_inner;              /* those of n_free that are inner coefficients of caps */
   int32_t n_unknowns;                /* points that remain to be chosen when constraints are met; n_free without any */
-  int32_t n_coarse;                  /* meshes of which this one is a refinement, whose displacements came first */
+  int32_t n_coarse;                  /* coarse meshes whose surfaces, or else displacements, came first */
   int32_t n_steps, n_hessians, n_factorisations;
   int32_t n_saddles; /* stationary points that were no minima, and were left */
   fs_costs costs;    /* of the minimisation */
