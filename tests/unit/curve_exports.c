@@ -11,8 +11,6 @@
 #include <stdarg.h>
 #include <cmocka.h>
 
-static const double pi = 3.14159265358979323846;
-
 /* z = (x^2 + y^2) / 2 with curves of a kind. */
 typedef struct sample {
   fs_patch patch[4];
@@ -142,6 +140,8 @@ static void test_every_allocation_may_fail(void **state) {
 
 #ifdef FS_HAVE_CAIRO
 #include "drawing.h"
+
+static const double pi = 3.14159265358979323846;
 
 /* Towards a viewer at elevation e in direction x the ray from (x, y) meets the paraboloid again at x' = 2 tan e - x: it hides
    the point where x < x' <= 1. */
