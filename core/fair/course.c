@@ -9,6 +9,7 @@
 
 enum { NORMALS_KEPT = 3 }; /* steps along the same normals */
 enum { MAX_ITERATIONS = 300, MAX_ITERATIONS_WALL = 400, MAX_SADDLES = 4 };
+static const double FINER_DAMPING = 1e-6; /* to begin with after a coarser mesh */
 
 static bool record(void *user, const fs_minimise_step *m) {
   fs_course *c = user;
@@ -62,7 +63,7 @@ static fs_status enter_depth(fs_course *c, int32_t depth) {
   if (c->solver != NULL && c->depth == depth) return FS_OK;
   fs_course_leave_depth(c);
   c->damping.is_factored = false;
-  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = FS_FINER_DAMPING};
+  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = FINER_DAMPING};
   if (depth > 0) {
     reduction = c->coarse[depth - 1];
     c->coarse[depth - 1] = NULL;

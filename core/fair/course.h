@@ -6,8 +6,6 @@
 #include "fair/constrain.h"
 #include "fair/stages.h"
 
-#define FS_FINER_DAMPING 1e-6 /* to begin with after a coarser mesh */
-
 /* The whole fairing. */
 typedef struct fs_course {
   fs_context *ctx;
@@ -30,8 +28,6 @@ typedef struct fs_course {
   int32_t n_stages;          /* before */
   double last_damping;       /* in the last factorisation */
   double value, begin_value; /* at x, and at the start of the last minimisation */
-  bool is_near;              /* coarse surfaces led near the minimum */
-  bool is_over;              /* on the way there: cancelled, out of time or out of steps */
   bool is_out_of_time;
 } fs_course;
 

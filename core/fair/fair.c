@@ -9,42 +9,23 @@
 #include "fair/along_normals.h"
 #include "base/clock.h"
 #include "fair/course.h"
-#include "fair/nested.h"
 #include "fair/smooth_start.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Fewer free dofs are quicker at once: with coarse surfaces first, and with coarse displacements, of which so many at least are
-   worth having. */
-enum { LEAST_NESTED = 600, LEAST_FREE = 1500, LEAST_COARSE = 200 };
-
-/* From coarse to fine: coarse surfaces, or where there are none, displacements of coarse meshes. */
-static fs_status begin_coarse(fs_course *c) {
-  fs_status status = FS_OK;
-  const fs_problem *p = c->setup.problem;
-  if (c->options->mesh == NULL || c->options->along_normals || c->setup.reduction != NULL || c->setup.wall != NULL)
-    return FS_OK;
-  if (p->n_free >= LEAST_NESTED && !fs_is_quadratic(c->setup.functional)) FS_TRY(fs_nested_start(c, &c->is_over));
-  c->is_near = c->report->n_coarse > 0;
-  if (c->is_near || p->n_free < LEAST_FREE) return FS_OK;
-  FS_TRY(fs_coarse_create(c->ctx, p, c->options->mesh, LEAST_COARSE, c->coarse, &c->n_coarse));
-  c->report->n_coarse = c->n_coarse;
-done:
-  return status;
-}
+/* Fewer free dofs are quicker at once. Coarser meshes than these move too little of what the fine one needs: each step costs the
+   integrals of the fine surface. */
+enum { LEAST_FREE = 600, LEAST_COARSE = 100, LEAST_SHARE = 90 };
 
 static fs_status run_stages(fs_course *c) {
   fs_status status = FS_OK;
   fs_stage stages[FS_MAX_STAGES];
   double last = c->setup.param[0];
-  int32_t n = fs_stages_plan(&c->setup, c->options, c->n_coarse, c->is_near ? c->report->n_coarse : 0, stages);
-  bool is_over = c->is_over;
+  int32_t n = fs_stages_plan(&c->setup, c->options, c->n_coarse, stages);
+  bool is_over = false;
   /* coarse displacements are smooth and trials cheap: far less damping than a raw mesh needs */
-  c->damping = (fs_damping){.nu = fs_is_quadratic(c->setup.functional) ? 0
-                                  : c->n_coarse > 0                    ? 1e-3
-                                  : c->is_near                         ? FS_FINER_DAMPING
-                                                                       : 1};
+  c->damping = (fs_damping){.nu = fs_is_quadratic(c->setup.functional) ? 0 : c->n_coarse > 0 ? 1e-3 : 1};
   for (int32_t i = 0; i < n && !is_over; i++) {
     if (c->options->along_normals) stages[i].depth = 1;
     FS_TRY(fs_course_run_stage(c, &stages[i], &is_over));
@@ -97,6 +78,7 @@ static fs_status run_course(fs_course *c, const fs_space *space) {
   const fs_constraints *constraints = c->options->constraints;
   bool is_scale_free = c->setup.functional->is_scale_free;
   double size = 0, size_now = 0;
+  int32_t least = p->n_free / LEAST_SHARE > LEAST_COARSE ? p->n_free / LEAST_SHARE : LEAST_COARSE;
   fs_energy begin = c->report->start;
   if (is_scale_free) FS_TRY(fs_setup_size(&c->setup, &size)); /* of the start as it was given */
   fs_setup_place(&c->setup, c->x);
@@ -109,7 +91,10 @@ static fs_status run_course(fs_course *c, const fs_space *space) {
   else if (!is_scale_free && c->setup.wall == NULL && !fs_is_quadratic(c->setup.functional))
     FS_TRY(fs_smooth_start(&c->setup, c->options, c->x, &begin));
   c->gradient_start = begin.gradient;
-  FS_TRY(begin_coarse(c));
+  if (c->options->mesh != NULL && !c->options->along_normals && c->setup.reduction == NULL && c->setup.wall == NULL &&
+      p->n_free >= LEAST_FREE)
+    FS_TRY(fs_coarse_create(c->ctx, p, c->options->mesh, least, c->coarse, &c->n_coarse));
+  c->report->n_coarse = c->n_coarse;
   FS_TRY(run_stages(c));
   FS_TRY(fs_problem_set_level(p, 0));
   fs_setup_place(&c->setup, c->x);

@@ -20,15 +20,10 @@ bool fs_is_quadratic(const fs_functional *functional) {
   return true;
 }
 
-double fs_stages_first(const fs_setup *s, int32_t n_before) {
-  double last = s->param[0];
-  return s->functional->is_continued ? fmax(ldexp(1e-2, -2 * n_before), last) : last;
-}
-
-int32_t fs_stages_plan(const fs_setup *s, const fs_fair_options *options, int32_t n_coarse, int32_t n_before,
+int32_t fs_stages_plan(const fs_setup *s, const fs_fair_options *options, int32_t n_coarse,
                        fs_stage stages[FS_MAX_STAGES]) {
   int32_t n = 0;
-  double last = s->param[0], C = fs_stages_first(s, n_before);
+  double last = s->param[0], C = s->functional->is_continued && last < 1e-2 ? 1e-2 : last;
   if (fs_is_quadratic(s->functional)) {
     stages[n++] = (fs_stage){.C = last, .tolerance = 1e-12, .is_last = true};
     return n;

@@ -20,12 +20,8 @@ typedef struct fs_stage {
 /* Polishing lowers C this much further. */
 #define FS_POLISH_FACTOR 1e-2
 
-/* The first C of a surface, which so many coarser ones led to. */
-double fs_stages_first(const fs_setup *setup, int32_t n_before);
-
-/* The stages of a setup over so many coarse meshes, the coarsest first; how many there are. n_before: coarse
-   surfaces that were faired before. */
-int32_t fs_stages_plan(const fs_setup *setup, const fs_fair_options *options, int32_t n_coarse, int32_t n_before,
+/* The stages of a setup over so many coarse meshes, the coarsest first; how many there are. */
+int32_t fs_stages_plan(const fs_setup *setup, const fs_fair_options *options, int32_t n_coarse,
                        fs_stage stages[FS_MAX_STAGES]);
 
 /* One Newton step reaches the minimum. */

@@ -190,7 +190,7 @@ typedef struct fs_fair_report {
   int32_t n_free, n_squares, n_caps; /* free dofs (a dof is a point), elements, special vertices */
   int32_t n_free_inner;              /* those of n_free that are inner coefficients of caps */
   int32_t n_unknowns;                /* points that remain to be chosen when constraints are met; n_free without any */
-  int32_t n_coarse;                  /* coarse meshes whose surfaces, or else displacements, came first */
+  int32_t n_coarse;                  /* meshes of which this one is a refinement, whose displacements came first */
   int32_t n_steps, n_hessians, n_factorisations;
   int32_t n_saddles; /* stationary points that were no minima, and were left */
   fs_costs costs;    /* of the minimisation */
