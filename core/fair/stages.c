@@ -13,6 +13,10 @@
 #define POLISH_TOLERANCE 1e-4
 #define BETWEEN_TOLERANCE 1e-5
 
+/* Of closed surfaces the first minimum, which is unique, is found to rounding: what noise would be left there leads to different
+   minima by the saddles at lower C. */
+#define CLOSED_TOLERANCE 1e-16
+
 bool fs_is_quadratic(const fs_functional *functional) {
   if (!functional->is_linear) return false;
   for (int32_t t = 0; t < functional->n_terms; t++)
@@ -23,6 +27,7 @@ bool fs_is_quadratic(const fs_functional *functional) {
 int32_t fs_stages_plan(const fs_setup *s, const fs_fair_options *options, int32_t n_coarse,
                        fs_stage stages[FS_MAX_STAGES]) {
   int32_t n = 0;
+  double between = s->functional->is_scale_free ? CLOSED_TOLERANCE : 1e-3;
   double last = s->param[0], C = s->functional->is_continued && last < 1e-2 ? 1e-2 : last;
   if (fs_is_quadratic(s->functional)) {
     stages[n++] = (fs_stage){.C = last, .tolerance = 1e-12, .is_last = true};
@@ -30,7 +35,7 @@ int32_t fs_stages_plan(const fs_setup *s, const fs_fair_options *options, int32_
   }
   for (int32_t depth = n_coarse; depth > 0; depth--, C = fmax(0.25 * C, last))
     stages[n++] = (fs_stage){.C = C, .depth = depth, .level = 2, .tolerance = 1e-3};
-  stages[n++] = (fs_stage){.C = C, .level = 1, .tolerance = C > last ? 1e-3 : 1e-6};
+  stages[n++] = (fs_stage){.C = C, .level = 1, .tolerance = C > last ? between : 1e-6};
   for (C /= 10; C > 2 * last && n < FS_MAX_STAGES - 2; C /= 10)
     stages[n++] =
         (fs_stage){.C = C, .level = 1, .tolerance = C < UNIQUE ? BETWEEN_TOLERANCE : 1e-3, .is_minimum = C < UNIQUE};
