@@ -143,6 +143,8 @@ static void test_graphs(void **state) {
         sample_add_graph(s, 3, 3, c, cut ? p % 2 / 2. : 0, cut ? 0.5 : 1, cut ? p / 2 / 3. : 0, cut ? 1 / 3. : 1);
       fs_shape shape = measure(s);
       near_part(shape.area, cases[k].area, 1e-9);
+      /* p . n / 3 of a graph is (z - x z_x - y z_y) / 3 = (1 - i - j) z / 3 of z = x^i y^j */
+      near_part(shape.volume, (1 - cases[k].i - cases[k].j) / (3. * (cases[k].i + 1) * (cases[k].j + 1)), 1e-12);
       near_part(shape.willmore, cases[k].willmore, 1e-7);
       near_part(shape.S, cases[k].S, 1e-5);
       near(shape.area, cases[k].area, fmax(shape.area_error, 1e-11));
