@@ -31,7 +31,7 @@ typedef struct state {
   int32_t n;
   double *x, *trial, *g, *g_trial, *s, *diagonal, *shift;
   double *v, *w; /* the normal, and (H + nu D)^-1 times it */
-  double f, f_trial, nu, nu_min, nu_failed, growth;
+  double f, f_trial, f_begin, nu, nu_min, nu_failed, growth;
   double nu_factored; /* in the factorisation that is there */
   fs_sparse hessian;  /* values of its own on the pattern of the objective */
   fs_solver *solver;
@@ -323,7 +323,8 @@ static fs_status is_done(fs_context *ctx, const fs_objective *o, const fs_minimi
   }
   if (r->gradient <= options->gradient_tolerance * gradient_start) { /* how much decrease is left? */
     FS_TRY(solve(ctx, o, t, t->g, t->s));
-    if (0.5 * dot(t->g, t->s, n) <= options->decrease_tolerance * fabs(t->f)) {
+    /* where the minimum is 0 nothing is small beside it, but rounding of the start may be left */
+    if (0.5 * dot(t->g, t->s, n) <= options->decrease_tolerance * fmax(fabs(t->f), rounding * fabs(t->f_begin))) {
       r->stop = FS_MINIMISE_GRADIENT;
       return FS_OK;
     }
@@ -342,7 +343,7 @@ static fs_status begin(fs_context *ctx, const fs_objective *o, const fs_minimise
                        fs_minimise_report *r) {
   fs_status status = FS_OK;
   FS_TRY(o->gradient(o->self, t->x, &t->f, t->g));
-  r->value = t->f;
+  r->value = t->f_begin = t->f;
   r->gradient = norm(t->g, 3 * (size_t)t->n);
   if (!isfinite(t->f) || !isfinite(r->gradient)) {
     status = fs_fail(ctx, FS_ERR_NUMERIC, "the functional is not finite at the start");
