@@ -64,21 +64,22 @@ static inline void unpack(const double *ddf, int a, int b, int q, double (*D)[N_
 
 enum { TILE_ROWS = 4, TILE_COLUMNS = 2 * FS_LANES };
 
-/* h[row .. row + 3][column .. ] += sum over r of left[r][row ..] right[r][column ..] */
-static inline void add_tile(int32_t m, int n_rows, const double *left, const double *right, double *h) {
+/* h[row .. row + 3][column .. ] += sum over r of left[r][row ..] right[r][column ..]; n_vectors of columns, 1 or 2. */
+static inline __attribute__((always_inline)) void add_tile(int32_t m, int n_rows, int n_vectors, const double *left,
+                                                           const double *right, double *h) {
   lanes sum[TILE_ROWS][2];
   for (int i = 0; i < TILE_ROWS; i++)
-    for (int j = 0; j < 2; j++) sum[i][j] = lanes_load(h + (size_t)i * m + j * FS_LANES);
+    for (int j = 0; j < n_vectors; j++) sum[i][j] = lanes_load(h + (size_t)i * m + j * FS_LANES);
   for (int r = 0; r < n_rows; r++) {
-    lanes right0 = lanes_load(right + (size_t)r * m), right1 = lanes_load(right + (size_t)r * m + FS_LANES);
+    lanes from[2];
+    for (int j = 0; j < n_vectors; j++) from[j] = lanes_load(right + (size_t)r * m + j * FS_LANES);
     for (int i = 0; i < TILE_ROWS; i++) {
       double x = left[(size_t)r * m + i];
-      sum[i][0] += x * right0;
-      sum[i][1] += x * right1;
+      for (int j = 0; j < n_vectors; j++) sum[i][j] += x * from[j];
     }
   }
   for (int i = 0; i < TILE_ROWS; i++)
-    for (int j = 0; j < 2; j++) lanes_store(h + (size_t)i * m + j * FS_LANES, sum[i][j]);
+    for (int j = 0; j < n_vectors; j++) lanes_store(h + (size_t)i * m + j * FS_LANES, sum[i][j]);
 }
 
 /* DN[q][i][m] = sum over j of D_q[i][j] N[q][j][m] */
@@ -110,7 +111,11 @@ void FS_KERNEL(fs_hessian)(int32_t m, const double *by_point, const double *ddf,
     for (int32_t row = 0; row < m; row += TILE_ROWS)
       for (int32_t column = 0; column < m; column += TILE_COLUMNS) {
         if (a == b && column + TILE_COLUMNS <= row) continue; /* below the diagonal of a symmetric matrix */
-        add_tile(m, N_ROWS, by_point + row, DN + column, out + (size_t)row * m + column);
+        double *tile = out + (size_t)row * m + column;
+        if (column + TILE_COLUMNS <= m)
+          add_tile(m, N_ROWS, 2, by_point + row, DN + column, tile);
+        else /* m is a multiple of 8: half a tile of the widest vectors is left */
+          add_tile(m, N_ROWS, 1, by_point + row, DN + column, tile);
       }
   }
 }
