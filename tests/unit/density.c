@@ -199,22 +199,22 @@ static void test_tangential_definition(void **state) {
   }
 }
 
-/* The contractions against plain loops, for every kernel set. */
-static void test_contractions(void **state) {
-  enum { M = 19, PADDED = 24 };
-  static double by_dof[N * M * B], by_point[B * N * PADDED], c[3 * M], x[N * 3 * B], df[N * 3 * B], ddf[45 * 9 * B],
-      g[3 * M];
-  static double h[6 * PADDED * PADDED];
+/* The contractions against plain loops, for every kernel set; n_dofs functions in rows of padded numbers. */
+static void check_contractions(int n_dofs, int padded) {
+  enum { MOST = 32 };
+  static double by_dof[N * MOST * B], by_point[B * N * MOST], c[3 * MOST], x[N * 3 * B], df[N * 3 * B], ddf[45 * 9 * B],
+      g[3 * MOST];
+  static double h[6 * MOST * MOST];
   static const int pairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
   const fs_kernels *all[4];
   int32_t n_sets = fs_kernels_all(all);
   uint64_t seed = 11;
-  (void)state;
+  memset(by_point, 0, sizeof by_point);
   for (int d = 0; d < N; d++)
-    for (int m = 0; m < M; m++)
+    for (int m = 0; m < n_dofs; m++)
       for (int q = 0; q < B; q++)
-        by_dof[(d * M + m) * B + q] = by_point[(q * N + d) * PADDED + m] = test_random_real(&seed, -1, 1);
-  for (int i = 0; i < 3 * M; i++) c[i] = test_random_real(&seed, -1, 1);
+        by_dof[(d * n_dofs + m) * B + q] = by_point[(q * N + d) * padded + m] = test_random_real(&seed, -1, 1);
+  for (int i = 0; i < 3 * n_dofs; i++) c[i] = test_random_real(&seed, -1, 1);
   for (int i = 0; i < N * 3 * B; i++) df[i] = test_random_real(&seed, -1, 1);
   for (int i = 0; i < 45 * 9 * B; i++) ddf[i] = test_random_real(&seed, -1, 1);
   for (int i = 0; i < N; i++) /* blocks of equal derivatives are symmetric */
@@ -224,26 +224,26 @@ static void test_contractions(void **state) {
   for (int32_t s = 0; s < n_sets; s++) {
     memset(g, 0, sizeof g);
     memset(h, 0, sizeof h);
-    all[s]->jets(M, by_dof, c, x);
-    all[s]->gradient(M, by_dof, df, g);
-    all[s]->hessian(PADDED, by_point, ddf, h);
+    all[s]->jets(n_dofs, by_dof, c, x);
+    all[s]->gradient(n_dofs, by_dof, df, g);
+    all[s]->hessian(padded, by_point, ddf, h);
     for (int d = 0; d < N; d++)
       for (int a = 0; a < 3; a++)
         for (int q = 0; q < B; q++) {
           double sum = 0;
-          for (int m = 0; m < M; m++) sum += by_dof[(d * M + m) * B + q] * c[3 * m + a];
+          for (int m = 0; m < n_dofs; m++) sum += by_dof[(d * n_dofs + m) * B + q] * c[3 * m + a];
           assert_true(fabs(sum - x[(3 * d + a) * B + q]) <= 1e-13);
         }
-    for (int m = 0; m < M; m++)
+    for (int m = 0; m < n_dofs; m++)
       for (int a = 0; a < 3; a++) {
         double sum = 0;
         for (int d = 0; d < N; d++)
-          for (int q = 0; q < B; q++) sum += by_dof[(d * M + m) * B + q] * df[(3 * d + a) * B + q];
+          for (int q = 0; q < B; q++) sum += by_dof[(d * n_dofs + m) * B + q] * df[(3 * d + a) * B + q];
         assert_true(fabs(sum - g[3 * m + a]) <= 1e-12);
       }
     for (int p = 0; p < 6; p++)
-      for (int m = 0; m < M; m++)
-        for (int k = pairs[p][0] == pairs[p][1] ? m : 0; k < M; k++) {
+      for (int m = 0; m < n_dofs; m++)
+        for (int k = pairs[p][0] == pairs[p][1] ? m : 0; k < n_dofs; k++) {
           double sum = 0;
           int a = pairs[p][0], b = pairs[p][1];
           for (int i = 0; i < N; i++)
@@ -251,11 +251,19 @@ static void test_contractions(void **state) {
               for (int q = 0; q < B; q++) {
                 double second =
                     i <= j ? ddf[(pair(i, j) * 9 + 3 * a + b) * B + q] : ddf[(pair(j, i) * 9 + 3 * b + a) * B + q];
-                sum += by_dof[(i * M + m) * B + q] * second * by_dof[(j * M + k) * B + q];
+                sum += by_dof[(i * n_dofs + m) * B + q] * second * by_dof[(j * n_dofs + k) * B + q];
               }
-          assert_true(fabs(sum - h[(p * PADDED + m) * PADDED + k]) <= 1e-11);
+          assert_true(fabs(sum - h[(p * padded + m) * padded + k]) <= 1e-11);
         }
   }
+}
+
+/* Rows of an odd and of an even number of the widest vectors. */
+static void test_contractions(void **state) {
+  (void)state;
+  check_contractions(19, 24);
+  check_contractions(30, 32);
+  check_contractions(7, 8);
 }
 
 /* The contraction axis by axis against plain loops: rows of three nodes, one of which continues in the next block. */
