@@ -4,6 +4,7 @@
 #define FS_ANALYSE_ANALYSE_H
 
 #include <fairsurf/analyse.h>
+#include "analyse/integrands.h"
 #include "base/base.h"
 
 /* Part of a side of a patch: its points from parameter begin to end of the side, begin < end. */
@@ -66,7 +67,6 @@ void fs_extreme_follow(const fs_surface *surface, int32_t patch, fs_extreme e, d
                        fs_found *found);
 
 /* Integrals over one patch (shape_patch.c). */
-typedef enum fs_integral { FS_AREA, FS_VOLUME, FS_WILLMORE, FS_S, FS_N_INTEGRALS } fs_integral;
 typedef struct fs_patch_shape {
   double integral[FS_N_INTEGRALS], error[FS_N_INTEGRALS];
   fs_found found[FS_N_EXTREMES]; /* at the nodes of the first pass */
@@ -80,18 +80,17 @@ typedef struct fs_sample {
 /* Gauss nodes per direction of a patch. */
 int32_t fs_patch_nodes(const fs_patch *patch);
 
-/* Nodes and weights of all those numbers; weight[k] NULL: not needed. */
-enum { FS_MIN_PATCH_NODES = 6, FS_MAX_PATCH_NODES = 24 };
+/* Nodes and weights of all those numbers, the multiples of 8. */
 typedef struct fs_rules {
   double node[FS_MAX_PATCH_NODES + 1][FS_MAX_PATCH_NODES], weight[FS_MAX_PATCH_NODES + 1][FS_MAX_PATCH_NODES];
   double legendre[FS_MAX_PATCH_NODES + 1][2][FS_MAX_PATCH_NODES]; /* weights of the two highest coefficients */
 } fs_rules;
 fs_status fs_rules_create(fs_context *ctx, fs_rules **rules);
 
-/* tolerance[FS_N_INTEGRALS]: wanted errors relative to the integrals of the patch. Every stride-th node goes to sample,
-   FS_NONE: none; n_samples: how many did. */
+/* tolerance[FS_N_INTEGRALS]: wanted errors relative to the integrals of the patch. Every stride-th node from the given first
+   one goes to sample; n_samples: how many did. */
 void fs_patch_measure(const fs_surface *surface, int32_t patch, const fs_rules *rules, const double *tolerance,
-                      int32_t stride, fs_patch_shape *shape, fs_sample *sample, int32_t *n_samples);
+                      int32_t first, int32_t stride, fs_patch_shape *shape, fs_sample *sample, int32_t *n_samples);
 
 /* Percentiles by area (distribution.c); the order of sample changes. */
 void fs_distribution_percentiles(size_t n, fs_sample *sample, fs_distribution *H, fs_distribution *K,

@@ -20,6 +20,7 @@ typedef struct job {
   fs_patch_shape *patch; /* [n_patches] */
   fs_sample *sample;
   size_t *sample_start;  /* [n_patches] */
+  int32_t *sample_first; /* [n_patches]: node of the patch */
   int32_t *sample_count; /* [n_patches] */
 } job;
 
@@ -27,27 +28,31 @@ static fs_status measure_patches(void *user, int32_t begin, int32_t end, int32_t
   job *j = user;
   (void)worker;
   for (int32_t i = j->from + begin; i < j->from + end; i++)
-    fs_patch_measure(j->surface, i, j->rules, j->tolerance, j->stride, &j->patch[i], j->sample + j->sample_start[i],
-                     &j->sample_count[i]);
+    fs_patch_measure(j->surface, i, j->rules, j->tolerance, j->sample_first[i], j->stride, &j->patch[i],
+                     j->sample + j->sample_start[i], &j->sample_count[i]);
   return FS_OK;
 }
 
-/* Every stride-th node of every patch, so that all together are no more than MAX_SAMPLES, or one of each patch. */
+/* Every stride-th node, counted on from patch to patch: each node of a patch as often as any other, and all together no more
+   than MAX_SAMPLES, or about one of each patch. */
 static fs_status plan_samples(fs_context *ctx, job *j, size_t *n_samples) {
   const fs_surface *s = j->surface;
-  int64_t n_nodes = 0;
+  int64_t n_nodes = 0, next = 0; /* the next sample, counted from the first node of the patch */
   size_t n = 0;
   fs_status status = FS_OK;
   for (int32_t p = 0; p < s->n_patches; p++)
     n_nodes += (int64_t)fs_patch_nodes(&s->patch[p]) * fs_patch_nodes(&s->patch[p]);
   j->stride = (int32_t)(n_nodes / MAX_SAMPLES) + 1;
-  if (j->stride > 1) j->stride |= 1; /* odd, so that not the same column is met in all rows of an even rule */
+  if (j->stride > 1) j->stride |= 1; /* odd, so that it has no part in common with the number of nodes of a patch */
   FS_ALLOC(ctx, j->sample_start, s->n_patches);
+  FS_ALLOC(ctx, j->sample_first, s->n_patches);
   FS_ALLOC(ctx, j->sample_count, s->n_patches);
   for (int32_t p = 0; p < s->n_patches; p++) {
     int32_t m = fs_patch_nodes(&s->patch[p]);
     j->sample_start[p] = n;
-    n += (size_t)((m * m - 1) / j->stride + 1);
+    j->sample_first[p] = (int32_t)next;
+    for (; next < m * m; next += j->stride) n++;
+    next -= m * m;
   }
   FS_ALLOC(ctx, j->sample, n);
   *n_samples = n;
@@ -191,6 +196,7 @@ done:
   fs_release(ctx, j.patch);
   fs_release(ctx, j.sample);
   fs_release(ctx, j.sample_start);
+  fs_release(ctx, j.sample_first);
   fs_release(ctx, j.sample_count);
   return status;
 }

@@ -8,23 +8,24 @@
    is too large for one of the integrals, the domain is cut in four. Patches of three sides are the image of the square
    under (a, b) -> (a, b (1 - a)). */
 #include "analyse/analyse.h"
-#include "math/diffgeo.h"
 #include "math/quadrature.h"
-#include "math/vec3.h"
+#include "surface/surface.h"
+
+#include <math.h>
 
 enum { MAX_DEPTH = 7, MAX_CELLS = 400 };
 
 int32_t fs_patch_nodes(const fs_patch *patch) {
   int32_t degree = patch->degree_u > patch->degree_v ? patch->degree_u : patch->degree_v;
-  int32_t n = (3 * degree + 1) / 2; /* p . (p_u x p_v) has degree 3 degree - 1: exact */
-  return n < FS_MIN_PATCH_NODES ? FS_MIN_PATCH_NODES : n > FS_MAX_PATCH_NODES ? FS_MAX_PATCH_NODES : n;
+  int32_t n = (3 * degree + 1) / 2;    /* p . (p_u x p_v) has degree 3 degree - 1: exact */
+  return n > 16 ? 24 : n > 8 ? 16 : 8; /* whole vectors */
 }
 
 fs_status fs_rules_create(fs_context *ctx, fs_rules **rules) {
   fs_rules *r = NULL;
   fs_status status = FS_OK;
   FS_ALLOC(ctx, r, 1);
-  for (int32_t n = FS_MIN_PATCH_NODES; n <= FS_MAX_PATCH_NODES; n++) {
+  for (int32_t n = 8; n <= FS_MAX_PATCH_NODES; n += 8) {
     FS_TRY(fs_gauss_legendre(ctx, n, r->node[n], r->weight[n]));
     for (int32_t i = 0; i < n; i++) {
       double x = 2 * r->node[n][i] - 1, p = 1, before = 0;
@@ -52,67 +53,81 @@ typedef struct pass {
   int32_t patch, n;
   const fs_rules *rules;
   const double *tolerance;
+  const fs_integrand_kernels *kernels;
 } pass;
 
-/* The integrands by u and v; where there is no normal, only position and area count. */
-static void evaluate(const pass *p, double u, double v, double f[FS_N_INTEGRALS], fs_point_values *values) {
-  fs_vec3 x[FS_JET_SIZE];
-  double area, H, gradient;
-  fs_surface_evaluate(p->surface, p->patch, u, v, x);
-  fs_point_evaluate(x, values);
-  area = values->value[FS_LEAST_AREA];
-  H = values->value[FS_MOST_H];
-  gradient = values->value[FS_MOST_GRADIENT];
-  f[FS_AREA] = area;
-  f[FS_VOLUME] = fs_vec3_dot(x[FS_D], fs_vec3_cross(x[FS_DU], x[FS_DV])) / 3;
-  f[FS_WILLMORE] = isfinite(H) ? H * H * area : 0;
-  f[FS_S] = isfinite(gradient) ? gradient * gradient * area : 0;
-}
+enum { MAX_POINTS = FS_MAX_PATCH_NODES * FS_MAX_PATCH_NODES };
 
-/* Sums f and its marginals over a cell; keeps samples and extremes in the first pass. */
-typedef struct sums {
-  double integral[FS_N_INTEGRALS], size[FS_N_INTEGRALS]; /* of f, of |f| */
-  double by_a[FS_N_INTEGRALS][FS_MAX_PATCH_NODES], by_b[FS_N_INTEGRALS][FS_MAX_PATCH_NODES];
-} sums;
+/* A cell at its nodes: parameters of columns and rows, what is integrated, and the weights of its domain. */
+typedef struct nodes {
+  double a[FS_MAX_PATCH_NODES], b[FS_MAX_PATCH_NODES], scale[FS_MAX_PATCH_NODES];
+  double at[FS_AT_N * MAX_POINTS];
+} nodes;
 
+/* Keeps samples and extremes of the first pass. */
 typedef struct collector {
   fs_patch_shape *shape;
   fs_sample *sample;
-  int32_t stride, n_seen, n_samples;
+  int32_t first, stride, n_samples;
 } collector;
 
-static void collect(collector *c, double u, double v, double area, const fs_point_values *values) {
-  const double *value = values->value;
-  for (int e = 0; e < FS_N_EXTREMES; e++)
-    if (fs_extreme_is_better((fs_extreme)e, value[e], c->shape->found[e].value))
-      c->shape->found[e] = (fs_found){value[e], u, v};
-  if (c->stride > 0 && c->n_seen++ % c->stride == 0 && isfinite(value[FS_MOST_GRADIENT]))
-    c->sample[c->n_samples++] = (fs_sample){value[FS_MOST_H], value[FS_MOST_K], value[FS_MOST_GRADIENT], area};
+static bool is_triangle(const pass *p) { return p->surface->patch[p->patch].n_sides == 3; }
+
+static void evaluate(const pass *p, const cell *c, nodes *at) {
+  const int32_t n = p->n, n_points = n * n;
+  double jets[3 * FS_JET_SIZE * MAX_POINTS];
+  for (int32_t i = 0; i < n; i++) {
+    at->a[i] = c->a + c->size * p->rules->node[n][i];
+    at->b[i] = c->b + c->size * p->rules->node[n][i];
+    at->scale[i] = c->size * c->size * (is_triangle(p) ? 1 - at->a[i] : 1);
+  }
+  if (is_triangle(p)) {
+    double u[MAX_POINTS], v[MAX_POINTS];
+    for (int32_t q = 0; q < n_points; q++) u[q] = at->a[q % n], v[q] = at->b[q / n] * (1 - u[q]);
+    fs_surface_evaluate_points(p->surface, p->patch, 3, (size_t)n_points, u, v, jets);
+  } else {
+    fs_surface_evaluate_grid(p->surface, p->patch, n, at->a, at->b, jets);
+  }
+  p->kernels->at_points((size_t)n_points, jets, at->at);
 }
 
-static void sum_cell(const pass *p, const cell *at, sums *s, collector *c) {
-  const bool is_triangle = p->surface->patch[p->patch].n_sides == 3;
-  const double *node = p->rules->node[p->n], *weight = p->rules->weight[p->n];
-  *s = (sums){0};
-  for (int32_t j = 0; j < p->n; j++)
-    for (int32_t i = 0; i < p->n; i++) {
-      double a = at->a + at->size * node[i], b = at->b + at->size * node[j], f[FS_N_INTEGRALS];
-      double u = a, v = is_triangle ? b * (1 - a) : b, jacobian = at->size * at->size * (is_triangle ? 1 - a : 1);
-      fs_point_values values;
-      evaluate(p, u, v, f, &values);
-      for (int k = 0; k < FS_N_INTEGRALS; k++) {
-        f[k] *= jacobian;
-        s->integral[k] += weight[i] * weight[j] * f[k];
-        s->size[k] += weight[i] * weight[j] * fabs(f[k]);
-        s->by_a[k][i] += weight[j] * f[k];
-        s->by_b[k][j] += weight[i] * f[k];
-      }
-      if (c != NULL) collect(c, u, v, weight[i] * weight[j] * f[FS_AREA], &values);
-    }
+static fs_found found_at(const pass *p, const nodes *at, int32_t q, double value) {
+  double u = at->a[q % p->n], v = at->b[q / p->n];
+  return (fs_found){value, u, is_triangle(p) ? v * (1 - u) : v};
+}
+
+static void collect(const pass *p, const nodes *at, collector *c) {
+  static const int8_t row[FS_N_EXTREMES] = {[FS_MOST_H] = FS_AT_H,
+                                            [FS_LEAST_H] = FS_AT_H,
+                                            [FS_MOST_K] = FS_AT_K,
+                                            [FS_LEAST_K] = FS_AT_K,
+                                            [FS_MOST_GRADIENT] = FS_AT_GRADIENT,
+                                            [FS_LEAST_GRADIENT] = FS_AT_GRADIENT,
+                                            [FS_MOST_PRINCIPAL] = FS_AT_MAXIMUM,
+                                            [FS_LEAST_PRINCIPAL] = FS_AT_MINIMUM,
+                                            [FS_LEAST_AREA] = FS_AT_AREA};
+  const int32_t n = p->n, n_points = n * n;
+  const double *weight = p->rules->weight[n];
+  for (int e = 0; e < FS_N_EXTREMES; e++) {
+    const double *value = at->at + (size_t)row[e] * (size_t)n_points;
+    double best = NAN;
+    int32_t where = 0;
+    for (int32_t q = 0; q < n_points; q++)
+      if (fs_extreme_is_better((fs_extreme)e, value[q], best)) best = value[q], where = q;
+    if (isfinite(best)) c->shape->found[e] = found_at(p, at, where, best);
+  }
+  for (int32_t q = c->first; q < n_points; q += c->stride) {
+    const double *value = at->at + q;
+    double gradient = value[FS_AT_GRADIENT * n_points];
+    if (!isfinite(gradient)) continue;
+    c->sample[c->n_samples++] =
+        (fs_sample){value[FS_AT_H * n_points], value[FS_AT_K * n_points], gradient,
+                    weight[q % n] * weight[q / n] * value[FS_AT_AREA * n_points] * at->scale[q % n]};
+  }
 }
 
 /* Estimated error of integral k over the cell. */
-static double estimate(const pass *p, const sums *s, int k) {
+static double estimate(const pass *p, const fs_cell_sums *s, int k) {
   double largest = 0;
   for (int top = 0; top < 2; top++) {
     const double *w = p->rules->legendre[p->n][top];
@@ -125,7 +140,8 @@ static double estimate(const pass *p, const sums *s, int k) {
 
 /* What errors of a patch are compared with: its integrals, but no less than what a curvature of a part of its largest, or
    of the inverse of 1e6 times its size, would give: else spheres and planes would be cut for their rounding errors. */
-static void find_scales(const pass *p, const fs_patch_shape *shape, const sums *s, double scale[FS_N_INTEGRALS]) {
+static void find_scales(const pass *p, const fs_patch_shape *shape, const fs_cell_sums *s,
+                        double scale[FS_N_INTEGRALS]) {
   double area = s->size[FS_AREA], k = 1e-6 / sqrt(area);
   k = fmax(k, fmax(fabs(shape->found[FS_MOST_PRINCIPAL].value), fabs(shape->found[FS_LEAST_PRINCIPAL].value)));
   for (int i = 0; i < FS_N_INTEGRALS; i++) scale[i] = s->size[i];
@@ -135,10 +151,12 @@ static void find_scales(const pass *p, const fs_patch_shape *shape, const sums *
 }
 
 void fs_patch_measure(const fs_surface *surface, int32_t patch, const fs_rules *rules, const double *tolerance,
-                      int32_t stride, fs_patch_shape *shape, fs_sample *sample, int32_t *n_samples) {
-  const pass p = {surface, patch, fs_patch_nodes(&surface->patch[patch]), rules, tolerance};
-  collector c = {.shape = shape, .sample = sample, .stride = stride};
+                      int32_t first, int32_t stride, fs_patch_shape *shape, fs_sample *sample, int32_t *n_samples) {
+  const pass p = {surface, patch,     fs_patch_nodes(&surface->patch[patch]),
+                  rules,   tolerance, fs_integrand_kernels_best()};
+  collector c = {.shape = shape, .sample = sample, .first = first, .stride = stride};
   cell stack[3 * MAX_DEPTH + 4];
+  nodes store, *values = &store;
   int32_t n = 0, n_cells = 0;
   double allowed[FS_N_INTEGRALS] = {0};
   *shape = (fs_patch_shape){0};
@@ -146,10 +164,12 @@ void fs_patch_measure(const fs_surface *surface, int32_t patch, const fs_rules *
   stack[n++] = (cell){0, 0, 1, 0};
   while (n > 0) {
     cell at = stack[--n];
-    sums s;
+    fs_cell_sums s;
     double error[FS_N_INTEGRALS];
     bool is_fine = true;
-    sum_cell(&p, &at, &s, at.depth == 0 ? &c : NULL);
+    evaluate(&p, &at, values);
+    p.kernels->add_up(p.n, p.rules->weight[p.n], values->scale, values->at, &s);
+    if (at.depth == 0) collect(&p, values, &c);
     if (at.depth == 0) find_scales(&p, shape, &s, allowed);
     for (int k = 0; k < FS_N_INTEGRALS; k++) {
       error[k] = estimate(&p, &s, k);

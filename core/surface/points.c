@@ -6,8 +6,10 @@
 
 #define DECLARE(suffix)                                                                                                \
   void fs_points_quad##suffix(const double *, int, int32_t, size_t, const double *, const double *, size_t, double *); \
+  void fs_points_grid##suffix(int32_t, int32_t, const double *, int32_t, const double *, const double *, double *);    \
   void fs_points_bend##suffix(size_t, size_t, const double *, size_t, double *);                                       \
-  static const fs_points_kernels kernels##suffix = {&#suffix[1], fs_points_quad##suffix, fs_points_bend##suffix};
+  static const fs_points_kernels kernels##suffix = {&#suffix[1], fs_points_quad##suffix, fs_points_grid##suffix,       \
+                                                    fs_points_bend##suffix};
 
 DECLARE(_base)
 #ifdef FS_HAVE_X86_KERNELS
@@ -51,6 +53,25 @@ void fs_surface_evaluate_points(const fs_surface *surface, int32_t patch, int32_
     for (int k = 0; k < n_derivatives[order]; k++) {
       double *to = out + 3 * (size_t)k * n + i;
       to[0] = x[k].x, to[n] = x[k].y, to[2 * n] = x[k].z;
+    }
+  }
+}
+
+void fs_surface_evaluate_grid(const fs_surface *surface, int32_t patch, int32_t n, const double *u, const double *v,
+                              double *out) {
+  const fs_patch *p = &surface->patch[patch];
+  const size_t stride = (size_t)n * (size_t)n;
+  fs_vec3 x[FS_JET_SIZE];
+  if (fs_patch_is_tensor_bezier(p) && n % 8 == 0 && n <= FS_MAX_GRID && p->degree_u >= 0 && p->degree_v >= 0 &&
+      p->degree_u <= FS_MAX_DEGREE && p->degree_v <= FS_MAX_DEGREE) {
+    choose()->grid(p->degree_u, p->degree_v, surface->data + p->data_start, n, u, v, out);
+    return;
+  }
+  for (size_t i = 0; i < stride; i++) {
+    fs_surface_evaluate(surface, patch, u[i % (size_t)n], v[i / (size_t)n], x);
+    for (int k = 0; k < FS_JET_SIZE; k++) {
+      double *to = out + 3 * (size_t)k * stride + i;
+      to[0] = x[k].x, to[stride] = x[k].y, to[2 * stride] = x[k].z;
     }
   }
 }

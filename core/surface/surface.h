@@ -31,6 +31,11 @@ void fs_domain_centre(int32_t n_sides, double *uv);
 void fs_hermite_corner(const fs_vec3 *x, double h, int corner_u, int corner_v, fs_vec3 *piece);
 fs_vec3 fs_bicubic_point(const fs_vec3 *piece, double u, double v);
 
+/* All derivatives at all (u_i, v_j) of [0, 1]^2 of a patch with four sides: out[FS_JET_SIZE][3][n n], the point (u_i, v_j) at
+   n j + i. Fast for tensor Bezier patches where n is 8, 16 or 24; values agree to rounding. */
+void fs_surface_evaluate_grid(const fs_surface *surface, int32_t patch, int32_t n, const double *u, const double *v,
+                              double *out);
+
 /* The functions of the table of kinds. */
 size_t fs_tensor_bezier_numbers(const fs_patch *patch);
 void fs_tensor_bezier_jet(const fs_patch *patch, const double *data, double u, double v, fs_vec3 *x);

@@ -3,6 +3,7 @@
 #include "math/diffgeo.h"
 #include "patch_samples.h"
 #include "surface/points.h"
+#include "surface/surface.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <cmocka.h>
@@ -72,6 +73,33 @@ static void test_kernels(void **state) {
   sample_pyramid_free(s);
 }
 
+/* All points of a grid, for every kernel set and degrees that are not the same. */
+static void test_all_of_a_grid(void **state) {
+  enum { N = 16, DEGREE_U = 5, DEGREE_V = 9, N_POINTS = (DEGREE_U + 1) * (DEGREE_V + 1) };
+  static double data[3 * N_POINTS], out[3 * FS_JET_SIZE * N * N], all_u[N * N], all_v[N * N];
+  fs_patch patch = {.kind = FS_PATCH_TENSOR_BEZIER, .n_sides = 4, .degree_u = DEGREE_U, .degree_v = DEGREE_V};
+  fs_surface s = {1, 3 * N_POINTS, &patch, data};
+  const fs_points_kernels *all[3];
+  double u[N], v[N];
+  int32_t n_kernels = fs_points_kernels_all(all);
+  uint64_t seed = 3;
+  (void)state;
+  for (int i = 0; i < N; i++) u[i] = i / (N - 1.), v[i] = test_random_real(&seed, 0, 1);
+  for (int i = 0; i < 3 * N_POINTS; i++) data[i] = test_random_real(&seed, -1, 1);
+  for (int i = 0; i < N * N; i++) all_u[i] = u[i % N], all_v[i] = v[i / N];
+  for (int32_t k = 0; k < n_kernels; k++)
+    for (int turn = 0; turn < 2; turn++) {
+      patch.degree_u = turn == 0 ? DEGREE_U : 3, patch.degree_v = turn == 0 ? DEGREE_V : 3;
+      all[k]->grid(patch.degree_u, patch.degree_v, data, N, u, v, out);
+      check(&s, 0, 3, N * N, all_u, all_v, out);
+    }
+  fs_surface_evaluate_grid(&s, 0, N, u, v, out);
+  check(&s, 0, 3, N * N, all_u, all_v, out);
+  fs_surface_evaluate_grid(&s, 0, 3, u, v, out); /* no kernel */
+  for (int i = 0; i < 9; i++) all_u[i] = u[i % 3], all_v[i] = v[i / 3];
+  check(&s, 0, 3, 9, all_u, all_v, out);
+}
+
 static void test_bend(void **state) {
   fs_surface *s = sample_pyramid(FS_PATCH_GREGORY_QUAD);
   double u[MOST], v[MOST], out[8 * MOST];
@@ -109,6 +137,7 @@ static void test_line(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_points), cmocka_unit_test(test_kernels),
-                                     cmocka_unit_test(test_bend), cmocka_unit_test(test_line)};
+                                     cmocka_unit_test(test_all_of_a_grid), cmocka_unit_test(test_bend),
+                                     cmocka_unit_test(test_line)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
