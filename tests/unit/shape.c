@@ -91,6 +91,35 @@ static void test_percentiles(void **state) {
   sample_grown_free(s);
 }
 
+/* So many patches that only some of their nodes are looked at: pieces t = shift + u of the graph of t^2 / 2, with
+   H = (1 + t^2)^(-3/2) / 2 and dA = sqrt(1 + t^2); shifts go from 0 to 1, so t is met as often as min(t, 2 - t). */
+static void test_percentiles_of_many(void **state) {
+  enum { N_PATCHES = 40000, N_STEPS = 20000 };
+  fs_surface *s = sample_empty();
+  double total = 0;
+  fs_shape shape;
+  (void)state;
+  for (int p = 0; p < N_PATCHES; p++) {
+    double shift = (p + 0.5) / N_PATCHES;
+    const double x[16] = {shift, 1}, y[16] = {0, 0, 0, 0, 1}, z[16] = {shift * shift / 2, shift, 0.5};
+    sample_add_powers(s, 3, 3, (const double *[3]){x, y, z});
+  }
+  shape = measure(s);
+  for (int i = 0; i < N_STEPS; i++) {
+    double t = 2 * (i + 0.5) / N_STEPS;
+    total += fmin(t, 2 - t) * sqrt(1 + t * t);
+  }
+  for (int k = 0; k < FS_N_PERCENTILES; k++) {
+    double below = 0;
+    for (int i = 0; i < N_STEPS; i++) {
+      double t = 2 * (i + 0.5) / N_STEPS;
+      if (0.5 * pow(1 + t * t, -1.5) < shape.H.percentile[k]) below += fmin(t, 2 - t) * sqrt(1 + t * t);
+    }
+    near(below / total, fs_percentiles[k] / 100, 2e-3);
+  }
+  sample_grown_free(s);
+}
+
 static void test_sphere_and_cylinder(void **state) {
   const double r = 1.7, b = 0.9;
   fs_surface *s = sample_empty();
@@ -247,6 +276,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_whole_torus),
       cmocka_unit_test(test_percentiles),
+      cmocka_unit_test(test_percentiles_of_many),
       cmocka_unit_test(test_sphere_and_cylinder),
       cmocka_unit_test(test_graphs),
       cmocka_unit_test(test_extreme_at_border),
