@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: the solver on CHOLMOD's supernodal factorisation [Chen Davis Hager Rajamanickam 2008].
-   The order is found on the graph of blocks, a ninth of the entries, and spread to the rows of the blocks. */
+   The order is found on the graph of blocks, a ninth of the entries, and the matrix is handed over in it: CHOLMOD would permute its
+   values anew for every factorisation. The order is a postorder of the elimination tree of blocks; then that of the rows is one
+   too, since the three rows of a block follow each other in the tree. */
 #include "solve/solver.h"
 #include "base/clock.h"
 
@@ -14,8 +16,12 @@ struct fs_solver {
   cholmod_sparse matrix; /* view of the arrays below */
   cholmod_factor *factor;
   cholmod_dense *solution, *work_y, *work_e;
-  int *start, *row; /* scalar pattern; column j has its diagonal block first */
+  int32_t *number;    /* [n_blocks] of a block in the order of elimination */
+  int32_t *place;     /* of each block of the pattern among those of its column there */
+  int32_t *col_start; /* [n_blocks + 1] there */
+  int *start, *row;   /* the rows; each column has its diagonal block first */
   double *value;
+  double *right; /* [3 n_blocks] */
   const fs_sparse *pattern;
   fs_solver_costs costs;
 };
@@ -27,8 +33,8 @@ static fs_status failed(fs_context *ctx, const fs_solver *s, const char *what) {
                  s->pattern->n_blocks);
 }
 
-/* order[3 n]: the order of the graph of blocks, each block's rows in sequence. */
-static fs_status order_blocks(fs_context *ctx, fs_solver *s, int *order) {
+/* s->number from the order of the graph of blocks. */
+static fs_status order_blocks(fs_context *ctx, fs_solver *s) {
   fs_status status = FS_OK;
   cholmod_factor *graph = NULL;
   cholmod_sparse pattern = {
@@ -53,25 +59,64 @@ static fs_status order_blocks(fs_context *ctx, fs_solver *s, int *order) {
     status = failed(ctx, s, "ordering");
     goto done;
   }
-  for (int32_t i = 0; i < s->pattern->n_blocks; i++)
-    for (int r = 0; r < 3; r++) order[3 * (size_t)i + r] = 3 * ((const int *)graph->Perm)[i] + r;
+  for (int32_t i = 0; i < s->pattern->n_blocks; i++) s->number[((const int *)graph->Perm)[i]] = i;
 done:
   cholmod_free_factor(&graph, &s->common);
   return status;
 }
 
+/* Column of block (i, j) in the order of elimination, below the diagonal: the lower number. */
+static int32_t column_of(const fs_solver *s, int32_t i, int32_t j) {
+  return s->number[i] < s->number[j] ? s->number[i] : s->number[j];
+}
+
+/* col_start and place; a diagonal block is the first of its column. */
+static fs_status place_blocks(fs_context *ctx, fs_solver *s) {
+  fs_status status = FS_OK;
+  const fs_sparse *a = s->pattern;
+  int32_t *used = NULL;
+  FS_ALLOC(ctx, used, a->n_blocks);
+  for (int32_t j = 0; j < a->n_blocks; j++)
+    for (int32_t k = a->col_start[j]; k < a->col_start[j + 1]; k++) s->col_start[column_of(s, a->row[k], j) + 1]++;
+  for (int32_t j = 0; j < a->n_blocks; j++) s->col_start[j + 1] += s->col_start[j];
+  for (int32_t j = 0; j < a->n_blocks; j++)
+    for (int32_t k = a->col_start[j]; k < a->col_start[j + 1]; k++)
+      s->place[k] = a->row[k] == j ? 0 : 1 + used[column_of(s, a->row[k], j)]++;
+done:
+  fs_release(ctx, used);
+  return status;
+}
+
 static void spread_pattern(fs_solver *s) {
   const fs_sparse *a = s->pattern;
+  for (int32_t j = 0; j < a->n_blocks; j++)
+    for (int c = 0; c < 3; c++) {
+      int32_t n = s->col_start[j + 1] - s->col_start[j];
+      s->start[3 * j + c] = 9 * s->col_start[j] + 3 * n * c;
+    }
+  s->start[3 * a->n_blocks] = 9 * s->col_start[a->n_blocks];
+  for (int32_t j = 0; j < a->n_blocks; j++)
+    for (int32_t k = a->col_start[j]; k < a->col_start[j + 1]; k++) {
+      int32_t column = column_of(s, a->row[k], j), row = s->number[a->row[k]] + s->number[j] - column;
+      for (int c = 0; c < 3; c++)
+        for (int r = 0; r < 3; r++) s->row[s->start[3 * column + c] + 3 * s->place[k] + r] = 3 * row + r;
+    }
+}
+
+/* s->value from the values of a, whose blocks are transposed where the order turns them. */
+static void spread_values(fs_solver *s, const fs_sparse *a) {
   for (int32_t j = 0; j < a->n_blocks; j++) {
     int32_t n = a->col_start[j + 1] - a->col_start[j];
-    for (int c = 0; c < 3; c++) {
-      int start = 9 * a->col_start[j] + 3 * n * c;
-      s->start[3 * j + c] = start;
-      for (int32_t b = 0; b < n; b++)
-        for (int r = 0; r < 3; r++) s->row[start + 3 * b + r] = 3 * a->row[a->col_start[j] + b] + r;
+    for (int32_t b = 0; b < n; b++) {
+      int32_t k = a->col_start[j] + b, i = a->row[k], column = column_of(s, i, j);
+      size_t stride = 3 * (size_t)(s->col_start[column + 1] - s->col_start[column]);
+      const double *from = a->value + 9 * (size_t)a->col_start[j] + 3 * (size_t)b;
+      double *to = s->value + 9 * (size_t)s->col_start[column] + 3 * (size_t)s->place[k];
+      bool is_turned = s->number[i] < s->number[j];
+      for (int c = 0; c < 3; c++)
+        for (int r = 0; r < 3; r++) to[stride * (size_t)c + r] = is_turned ? from[3 * n * r + c] : from[3 * n * c + r];
     }
   }
-  s->start[3 * a->n_blocks] = 9 * a->col_start[a->n_blocks];
 }
 
 /* Memory that the system has left, in bytes; infinite where it does not say. */
@@ -90,7 +135,6 @@ static double available_memory(void) {
 static fs_status check_memory(fs_context *ctx, const fs_solver *s) {
   double bytes = 8.0 * (double)s->factor->xsize + 8.0 * (double)s->factor->maxcsize + 4.0 * (double)s->factor->ssize;
   double limit = ctx->max_bytes > 0 ? ctx->max_bytes : available_memory();
-  bytes += 12.0 * (double)s->matrix.nzmax; /* the permuted copy of the matrix */
   if (bytes <= limit) return FS_OK;
   return fs_fail(ctx, FS_ERR_MEMORY,
                  "factorising the Hessian of %d unknown points would take %.3g GB of memory, and %.3g GB are %s",
@@ -100,7 +144,6 @@ static fs_status check_memory(fs_context *ctx, const fs_solver *s) {
 fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver **solver) {
   fs_status status = FS_OK;
   fs_solver *s = NULL;
-  int *order = NULL;
   size_t n = 3 * (size_t)pattern->n_blocks, n_entries = 9 * (size_t)pattern->col_start[pattern->n_blocks];
   double begin = fs_clock_processor_seconds();
   FS_ALLOC(ctx, s, 1);
@@ -108,12 +151,16 @@ fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver 
   cholmod_start(&s->common);
   s->common.print = 0;
   s->common.quick_return_if_not_posdef = 1;
+  FS_ALLOC(ctx, s->number, pattern->n_blocks);
+  FS_ALLOC(ctx, s->col_start, (size_t)pattern->n_blocks + 1);
+  FS_ALLOC(ctx, s->place, pattern->col_start[pattern->n_blocks]);
+  FS_ALLOC(ctx, s->right, n);
   FS_ALLOC(ctx, s->start, n + 1);
   FS_ALLOC(ctx, s->row, n_entries);
   FS_ALLOC(ctx, s->value, n_entries);
-  FS_ALLOC(ctx, order, n);
+  FS_TRY(order_blocks(ctx, s));
+  FS_TRY(place_blocks(ctx, s));
   spread_pattern(s);
-  FS_TRY(order_blocks(ctx, s, order));
   s->matrix = (cholmod_sparse){.nrow = n,
                                .ncol = n,
                                .nzmax = n_entries,
@@ -124,12 +171,12 @@ fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver 
                                .itype = CHOLMOD_INT,
                                .xtype = CHOLMOD_REAL,
                                .dtype = CHOLMOD_DOUBLE,
-                               .sorted = 1,
                                .packed = 1};
   s->common.nmethods = 1;
-  s->common.method[0].ordering = CHOLMOD_GIVEN;
+  s->common.method[0].ordering = CHOLMOD_NATURAL;
+  s->common.postorder = 0;
   s->common.supernodal = CHOLMOD_SUPERNODAL;
-  s->factor = cholmod_analyze_p(&s->matrix, order, NULL, 0, &s->common);
+  s->factor = cholmod_analyze(&s->matrix, &s->common);
   if (s->factor == NULL) {
     status = failed(ctx, s, "analysis");
     goto done;
@@ -148,7 +195,6 @@ fs_status fs_solver_create(fs_context *ctx, const fs_sparse *pattern, fs_solver 
   *solver = s;
   s = NULL;
 done:
-  fs_release(ctx, order);
   fs_solver_free(ctx, s);
   return status;
 }
@@ -162,6 +208,10 @@ void fs_solver_free(fs_context *ctx, fs_solver *s) {
   cholmod_free_dense(&s->work_y, &s->common);
   cholmod_free_dense(&s->work_e, &s->common);
   cholmod_finish(&s->common);
+  fs_release(ctx, s->number);
+  fs_release(ctx, s->col_start);
+  fs_release(ctx, s->place);
+  fs_release(ctx, s->right);
   fs_release(ctx, s->start);
   fs_release(ctx, s->row);
   fs_release(ctx, s->value);
@@ -170,9 +220,9 @@ void fs_solver_free(fs_context *ctx, fs_solver *s) {
 
 fs_status fs_solver_factor(fs_context *ctx, fs_solver *s, const fs_sparse *a, const double *shift, bool *is_definite) {
   double begin = fs_clock_processor_seconds();
-  memcpy(s->value, a->value, 9 * (size_t)a->col_start[a->n_blocks] * sizeof *a->value);
+  spread_values(s, a);
   for (int32_t j = 0; j < a->n_blocks; j++)
-    for (int c = 0; c < 3; c++) s->value[s->start[3 * j + c] + c] += shift[j];
+    for (int c = 0; c < 3; c++) s->value[s->start[3 * s->number[j] + c] + c] += shift[j];
   if (!cholmod_factorize(&s->matrix, s->factor, &s->common)) return failed(ctx, s, "factorisation");
   if (s->common.status < CHOLMOD_OK) return failed(ctx, s, "factorisation");
   s->costs.n_factorisations++;
@@ -183,15 +233,14 @@ fs_status fs_solver_factor(fs_context *ctx, fs_solver *s, const fs_sparse *a, co
 
 fs_status fs_solver_solve(fs_context *ctx, fs_solver *s, const double *b, double *x) {
   size_t n = 3 * (size_t)s->pattern->n_blocks;
-  cholmod_dense right = {.nrow = n,
-                         .ncol = 1,
-                         .nzmax = n,
-                         .d = n,
-                         .x = (void *)(uintptr_t)b, /* CHOLMOD does not write to it */
-                         .xtype = CHOLMOD_REAL,
-                         .dtype = CHOLMOD_DOUBLE};
+  cholmod_dense right = {
+      .nrow = n, .ncol = 1, .nzmax = n, .d = n, .x = s->right, .xtype = CHOLMOD_REAL, .dtype = CHOLMOD_DOUBLE};
+  for (int32_t i = 0; i < s->pattern->n_blocks; i++)
+    memcpy(s->right + 3 * (size_t)s->number[i], b + 3 * (size_t)i, 3 * sizeof *b);
   if (!cholmod_solve2(CHOLMOD_A, s->factor, &right, NULL, &s->solution, NULL, &s->work_y, &s->work_e, &s->common))
     return failed(ctx, s, "solution");
-  memcpy(x, s->solution->x, n * sizeof *x);
+  const double *solution = s->solution->x;
+  for (int32_t i = 0; i < s->pattern->n_blocks; i++)
+    memcpy(x + 3 * (size_t)i, solution + 3 * (size_t)s->number[i], 3 * sizeof *x);
   return FS_OK;
 }
