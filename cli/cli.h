@@ -73,6 +73,9 @@ void print_list(void);    /* of the tables of the library */
 /* Exit code of a status. */
 int exit_code(fs_status status);
 
+/* Lets ctx, and CHOLMOD, ask for large pages and keep what was freed. */
+void use_large_pages(fs_context *ctx);
+
 /* The space over a mesh with the caps that the arguments ask for, or that suit. kept: coefficients that the file holds, or
    NULL; they are for the mesh as it was read, before it was refined. */
 fs_status create_space(fs_context *ctx, const arguments *arguments, const fs_mesh *mesh, const fs_cap_notes *kept,

@@ -308,6 +308,7 @@ int main(int argc, char **argv) {
   job j = {.ctx = &ctx, .arguments = &arguments, .passes = true};
   fs_status status;
   int code;
+  use_large_pages(&ctx);
   signal(SIGINT, interrupt);
   fs_blas_set_threads(1);
   status = run(&j);
