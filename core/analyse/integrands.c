@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: the choice among the kernels of integrands.h. */
 #include "analyse/integrands.h"
+#include "math/kernel_sets.h"
 
 #define DECLARE(suffix)                                                                                       \
   void fs_integrands_at##suffix(size_t, const double *, double *);                                            \
@@ -8,19 +9,11 @@
   static const fs_integrand_kernels kernels##suffix = {&#suffix[1], fs_integrands_at##suffix,                 \
                                                        fs_integrands_add_up##suffix};
 
-DECLARE(_base)
-#ifdef FS_HAVE_X86_KERNELS
-DECLARE(_avx2)
-DECLARE(_avx512)
-#endif
+FS_DECLARE_SETS(DECLARE)
 
 int32_t fs_integrand_kernels_all(const fs_integrand_kernels *all[3]) {
   int32_t n = 0;
-#ifdef FS_HAVE_X86_KERNELS
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) all[n++] = &kernels_avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) all[n++] = &kernels_avx2;
-#endif
-  all[n++] = &kernels_base;
+  FS_LIST_SETS(all, n);
   return n;
 }
 

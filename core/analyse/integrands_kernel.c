@@ -71,11 +71,6 @@ typedef long long bits __attribute__((vector_size(8 * FS_LANES)));
 
 static inline lanes where_finite(lanes x, lanes y) { return (lanes)((bits)(x - x == 0) & (bits)y); }
 static inline lanes absolute(lanes x) { return (lanes)((bits)x & (INT64_MAX - (bits){0})); }
-static inline double sum_lanes(lanes x) {
-  double sum = x[0];
-  for (int l = 1; l < FS_LANES; l++) sum += x[l];
-  return sum;
-}
 
 void FS_KERNEL(fs_integrands_add_up)(int32_t n, const double *weight, const double *scale, const double *at,
                                      fs_cell_sums *sums);
@@ -102,10 +97,10 @@ void FS_KERNEL(fs_integrands_add_up)(int32_t n, const double *weight, const doub
         lanes_store(&sums->by_a[k][i], lanes_load(&sums->by_a[k][i]) + weight[j] * f[k]);
       }
     }
-    for (int k = 0; k < FS_N_INTEGRALS; k++) sums->by_b[k][j] = sum_lanes(row[k]);
+    for (int k = 0; k < FS_N_INTEGRALS; k++) sums->by_b[k][j] = lanes_sum(row[k]);
   }
   for (int k = 0; k < FS_N_INTEGRALS; k++) {
-    sums->size[k] = sum_lanes(size[k]);
+    sums->size[k] = lanes_sum(size[k]);
     sums->integral[k] = 0;
     for (int32_t j = 0; j < n; j++) sums->integral[k] += weight[j] * sums->by_b[k][j];
   }

@@ -30,12 +30,6 @@ void FS_KERNEL(fs_add_scaled)(int32_t n, const double *scale, const double *from
   }
 }
 
-static inline double sum_lanes(lanes x) {
-  double sum = x[0];
-  for (int l = 1; l < FS_LANES; l++) sum += x[l];
-  return sum;
-}
-
 void FS_KERNEL(fs_gradient)(int32_t m, const double *table, const double *df, double *g) {
   for (int32_t k = 0; k < m; k++) {
     lanes g0 = {0}, g1 = {0}, g2 = {0};
@@ -46,9 +40,9 @@ void FS_KERNEL(fs_gradient)(int32_t m, const double *table, const double *df, do
         g1 += basis * lanes_load(df + (3 * i + 1) * FS_BLOCK + l);
         g2 += basis * lanes_load(df + (3 * i + 2) * FS_BLOCK + l);
       }
-    g[3 * k] += sum_lanes(g0);
-    g[3 * k + 1] += sum_lanes(g1);
-    g[3 * k + 2] += sum_lanes(g2);
+    g[3 * k] += lanes_sum(g0);
+    g[3 * k + 1] += lanes_sum(g1);
+    g[3 * k + 2] += lanes_sum(g2);
   }
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Single role: the sets of kernels that were built, and the choice among them at run time. */
 #include "fair/kernels.h"
+#include "math/kernel_sets.h"
 
 #define DECLARE(suffix)                                                                                               \
   void fs_curvature_variation##suffix(const double *, double *, double *, double *);                                  \
@@ -33,19 +34,11 @@
                                              .to_chart = fs_to_chart##suffix,                                         \
                                              .add_from_chart = fs_add_from_chart##suffix};
 
-DECLARE(_base)
-#ifdef FS_HAVE_X86_KERNELS
-DECLARE(_avx2)
-DECLARE(_avx512)
-#endif
+FS_DECLARE_SETS(DECLARE)
 
 int32_t fs_kernels_all(const fs_kernels *all[4]) {
   int32_t n = 0;
-#ifdef FS_HAVE_X86_KERNELS
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) all[n++] = &kernels_avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) all[n++] = &kernels_avx2;
-#endif
-  all[n++] = &kernels_base;
+  FS_LIST_SETS(all, n);
   all[n] = NULL;
   return n;
 }

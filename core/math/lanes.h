@@ -30,6 +30,12 @@ static inline lanes lanes_sqrt(lanes x) {
   return x;
 }
 
+static inline double lanes_sum(lanes x) {
+  double sum = x[0];
+  for (int l = 1; l < FS_LANES; l++) sum += x[l];
+  return sum;
+}
+
 static inline lanes lanes_dot(const lanes *a, const lanes *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* out = scale * a, out += a x b, out = a x b */

@@ -2,17 +2,10 @@
 /* Single role: a tensor Bezier patch at all (u_i, v_j), with derivatives to order 3 (formulas as in kind_tensor_bezier.c): its
    points summed along v for each row j, then the row along u for vectors of nodes. */
 #include "math/lanes.h"
+#include "surface/jet.h"
 #include "surface/points.h"
 
-#include <fairsurf/surface.h>
-
 enum { N_ORDERS = 4, MAX_POINTS = FS_MAX_DEGREE + 1 };
-
-static const int8_t number[N_ORDERS][N_ORDERS] = {/* of the derivative of order [by u][by v] */
-                                                  {FS_D, FS_DV, FS_DVV, FS_DVVV},
-                                                  {FS_DU, FS_DUV, FS_DUVV},
-                                                  {FS_DUU, FS_DUUV},
-                                                  {FS_DUUU}};
 
 /* basis of degree d, in place, to degree d + 1; differentiated where is_derivative */
 static inline void raise(lanes *basis, int32_t d, lanes t, bool is_derivative) {
@@ -71,7 +64,7 @@ static inline __attribute__((always_inline)) void run(int32_t degree_u, int32_t 
             for (int c = 0; c < 3; c++) x[c] += f * row[b][3 * i + c];
           }
           for (int c = 0; c < 3; c++)
-            lanes_store(out + (size_t)(3 * number[a][b] + c) * stride + (size_t)(n * j + l), x[c]);
+            lanes_store(out + (size_t)(3 * fs_jet_number[a][b] + c) * stride + (size_t)(n * j + l), x[c]);
         }
   }
 }

@@ -6,6 +6,10 @@
 
 #include <fairsurf/surface.h>
 
+/* Number of the derivative of order [by u][by v]. */
+static const signed char fs_jet_number[4][4] = {
+    {FS_D, FS_DV, FS_DVV, FS_DVVV}, {FS_DU, FS_DUV, FS_DUVV}, {FS_DUU, FS_DUUV}, {FS_DUUU}};
+
 static inline double fs_jet_along(const double *f, const double *a) { return f[FS_DU] * a[0] + f[FS_DV] * a[1]; }
 
 static inline double fs_jet_along_two(const double *f, const double *a, const double *b) {

@@ -3,6 +3,7 @@
 
    The basis of degree n is raised from degree 0 by B_i^n = (1 - t) B_i^(n-1) + t B_(i-1)^(n-1), which gives exact values at
    t = 0 and 1, and derivatives by (B_i^n)' = n (B_(i-1)^(n-1) - B_i^(n-1))   [Farin 2002, ch. 5]. */
+#include "surface/jet.h"
 #include "surface/surface.h"
 #include "math/vec3.h"
 
@@ -54,11 +55,6 @@ static void sum_line(const axis *a, int32_t stride, const double *point, int n_o
 
 /* x of all orders, summed along the first axis first. */
 static void sum_lines(const axis *first, const axis *second, bool is_u_first, const double *point, fs_vec3 *x) {
-  static const int8_t number[N_ORDERS][N_ORDERS] = {/* of the derivative of order [by u][by v] */
-                                                    {FS_D, FS_DV, FS_DVV, FS_DVVV},
-                                                    {FS_DU, FS_DUV, FS_DUVV},
-                                                    {FS_DUU, FS_DUUV},
-                                                    {FS_DUUU}};
   fs_vec3 line[N_ORDERS], column[N_ORDERS][FS_MAX_DEGREE + 1], sum[N_ORDERS];
   for (int32_t j = 0; j <= second->degree; j++, point += second->stride) {
     sum_line(first, first->stride, point, N_ORDERS, line);
@@ -66,7 +62,7 @@ static void sum_lines(const axis *first, const axis *second, bool is_u_first, co
   }
   for (int a = 0; a < N_ORDERS; a++) {
     sum_line(second, 3, &column[a][0].x, N_ORDERS - a, sum);
-    for (int b = 0; b < N_ORDERS - a; b++) x[is_u_first ? number[a][b] : number[b][a]] = sum[b];
+    for (int b = 0; b < N_ORDERS - a; b++) x[is_u_first ? fs_jet_number[a][b] : fs_jet_number[b][a]] = sum[b];
   }
 }
 

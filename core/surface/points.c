@@ -2,28 +2,25 @@
 /* Single role: a patch at many points: by the kernels of the best instruction set where they know its kind, else point by
    point. */
 #include "surface/points.h"
+#include "math/kernel_sets.h"
 #include "surface/surface.h"
 
 #define DECLARE(suffix)                                                                                                \
   void fs_points_quad##suffix(const double *, int, int32_t, size_t, const double *, const double *, size_t, double *); \
   void fs_points_grid##suffix(int32_t, int32_t, const double *, int32_t, const double *, const double *, double *);    \
   void fs_points_bend##suffix(size_t, size_t, const double *, size_t, double *);                                       \
-  static const fs_points_kernels kernels##suffix = {&#suffix[1], fs_points_quad##suffix, fs_points_grid##suffix,       \
-                                                    fs_points_bend##suffix};
+  void fs_points_triangle##suffix(int32_t, const double *, int32_t, size_t, const double *, const double *, double *); \
+  static const fs_points_kernels kernels##suffix = {.name = &#suffix[1],                                               \
+                                                    .quad = fs_points_quad##suffix,                                    \
+                                                    .grid = fs_points_grid##suffix,                                    \
+                                                    .triangle = fs_points_triangle##suffix,                            \
+                                                    .bend = fs_points_bend##suffix};
 
-DECLARE(_base)
-#ifdef FS_HAVE_X86_KERNELS
-DECLARE(_avx2)
-DECLARE(_avx512)
-#endif
+FS_DECLARE_SETS(DECLARE)
 
 int32_t fs_points_kernels_all(const fs_points_kernels *all[3]) {
   int32_t n = 0;
-#ifdef FS_HAVE_X86_KERNELS
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) all[n++] = &kernels_avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) all[n++] = &kernels_avx2;
-#endif
-  all[n++] = &kernels_base;
+  FS_LIST_SETS(all, n);
   return n;
 }
 
@@ -46,6 +43,10 @@ void fs_surface_evaluate_points(const fs_surface *surface, int32_t patch, int32_
   order = order < 0 ? 0 : order > 3 ? 3 : order;
   if (has_kernel(p, order)) {
     choose()->quad(surface->data + p->data_start, p->kind == FS_PATCH_GREGORY_QUAD, order, n, u, v, n, out);
+    return;
+  }
+  if (p->kind == FS_PATCH_BEZIER_TRIANGLE && p->part == 0 && fs_bezier_triangle_numbers(p) > 0) {
+    choose()->triangle(p->degree_u, surface->data + p->data_start, n_derivatives[order], n, u, v, out);
     return;
   }
   for (size_t i = 0; i < n; i++) {

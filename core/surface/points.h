@@ -17,6 +17,9 @@ typedef struct fs_points_kernels {
      multiple of 8, at most FS_MAX_GRID. */
   void (*grid)(int32_t degree_u, int32_t degree_v, const double *point, int32_t n, const double *u, const double *v,
                double *out);
+  /* Bezier triangles of any degree, points as in kind_bezier_triangle.c; out[n_derivatives][3][n] */
+  void (*triangle)(int32_t degree, const double *point, int32_t n_derivatives, size_t n, const double *u,
+                   const double *v, double *out);
   /* jets[6][3][stride_in] of n points to out[8][stride], as fs_surface_bend_points. */
   void (*bend)(size_t n, size_t stride_in, const double *jets, size_t stride, double *out);
 } fs_points_kernels;

@@ -89,9 +89,9 @@ FS_API fs_status fs_surface_validate(fs_context *ctx, const fs_surface *surface)
 /* Position and derivatives up to order 3 of a patch at (u, v): x[FS_JET_SIZE]. */
 FS_API void fs_surface_evaluate(const fs_surface *surface, int32_t patch, double u, double v, fs_vec3 *x);
 
-/* The same at many points of one patch, several times faster for bicubic tensor Bezier patches and Gregory quads of degree
-   (3, 3); values agree to rounding, which depends on the processor. order: 0 .. 3. out[(3 k + c) n + i]: coordinate c of
-   derivative k, 1, 3, 6 or FS_JET_SIZE of them, at point i. */
+/* The same at many points of one patch, several times faster for Bezier triangles and, to order 2, for bicubic tensor Bezier
+   patches and Gregory quads of degree (3, 3); values agree to rounding, which depends on the processor. order: 0 .. 3.
+   out[(3 k + c) n + i]: coordinate c of derivative k, 1, 3, 6 or FS_JET_SIZE of them, at point i. */
 FS_API void fs_surface_evaluate_points(const fs_surface *surface, int32_t patch, int32_t order, size_t n,
                                        const double *u, const double *v, double *out);
 

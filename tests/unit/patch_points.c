@@ -100,6 +100,29 @@ static void test_all_of_a_grid(void **state) {
   check(&s, 0, 3, 9, all_u, all_v, out);
 }
 
+/* Bezier triangles of every low degree and a high one, for every kernel set. */
+static void test_triangles(void **state) {
+  static const int degree[6] = {1, 2, 3, 4, 7, FS_MAX_DEGREE};
+  static double data[3 * (FS_MAX_DEGREE + 1) * (FS_MAX_DEGREE + 2) / 2];
+  fs_patch patch = {.kind = FS_PATCH_BEZIER_TRIANGLE, .n_sides = 3};
+  fs_surface s = {1, sizeof data / sizeof *data, &patch, data};
+  const fs_points_kernels *all[3];
+  double u[MOST], v[MOST], out[3 * FS_JET_SIZE * MOST];
+  int32_t n_kernels = fs_points_kernels_all(all);
+  (void)state;
+  make_parameters(3, u, v);
+  for (int d = 0; d < 6; d++) {
+    uint64_t seed = 17;
+    double steep = fmax(1, pow(degree[d] / 4., 3)); /* third derivatives grow with the cube of the degree */
+    for (size_t i = 0; i < s.n_data; i++) data[i] = test_random_real(&seed, -1, 1) / steep;
+    patch.degree_u = patch.degree_v = degree[d];
+    for (int32_t k = 0; k < n_kernels; k++) {
+      all[k]->triangle(degree[d], data, FS_JET_SIZE, MOST, u, v, out);
+      check(&s, 0, 3, MOST, u, v, out);
+    }
+  }
+}
+
 static void test_bend(void **state) {
   fs_surface *s = sample_pyramid(FS_PATCH_GREGORY_QUAD);
   double u[MOST], v[MOST], out[8 * MOST];
@@ -136,8 +159,8 @@ static void test_line(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_points), cmocka_unit_test(test_kernels),
-                                     cmocka_unit_test(test_all_of_a_grid), cmocka_unit_test(test_bend),
-                                     cmocka_unit_test(test_line)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_points),        cmocka_unit_test(test_kernels),
+                                     cmocka_unit_test(test_all_of_a_grid), cmocka_unit_test(test_triangles),
+                                     cmocka_unit_test(test_bend),          cmocka_unit_test(test_line)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
