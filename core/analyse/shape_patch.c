@@ -159,6 +159,8 @@ void fs_patch_measure(const fs_surface *surface, int32_t patch, const fs_rules *
   nodes store, *values = &store;
   int32_t n = 0, n_cells = 0;
   double allowed[FS_N_INTEGRALS] = {0};
+  /* where second derivatives have no single value at corners, |grad H|^2 is not integrable there: cells bring nothing */
+  const int n_finite = fs_patch_kinds[surface->patch[patch].kind].corner_order < 2 ? FS_S : FS_N_INTEGRALS;
   *shape = (fs_patch_shape){0};
   for (int e = 0; e < FS_N_EXTREMES; e++) shape->found[e].value = NAN;
   stack[n++] = (cell){0, 0, 1, 0};
@@ -173,7 +175,7 @@ void fs_patch_measure(const fs_surface *surface, int32_t patch, const fs_rules *
     if (at.depth == 0) find_scales(&p, shape, &s, allowed);
     for (int k = 0; k < FS_N_INTEGRALS; k++) {
       error[k] = estimate(&p, &s, k);
-      is_fine = is_fine && error[k] <= allowed[k] * at.size;
+      if (k < n_finite) is_fine = is_fine && error[k] <= allowed[k] * at.size;
     }
     if (is_fine || at.depth == MAX_DEPTH || ++n_cells > MAX_CELLS) {
       for (int k = 0; k < FS_N_INTEGRALS; k++) shape->integral[k] += s.integral[k], shape->error[k] += error[k];
