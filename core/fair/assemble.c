@@ -6,7 +6,11 @@
      dF/dc_e   = sum w_t w_q N_q^T f'           d2F/dc_e2 = sum w_t w_q N_q^T f'' N_q.
    All terms are added at the point, before the chain rule to the dofs; those fed derivatives by the coordinates of a chart are
    turned into derivatives by (u, v) first. Elements are computed in parallel,
-   a batch at a time, and added in their order, so that results do not depend on the number of threads. */
+   a batch at a time, and added in their order, so that results do not depend on the number of threads.
+
+   Under displacements of a coarser mesh the Hessian by the unknowns of a coarse square is the sum over all points of all elements
+   within, with basis functions of the square: c_e = T_e y, and N_q T_e is again a product of functions of u and of v. */
+#include "fair/coarse_squares.h"
 #include "fair/scatter.h"
 
 #include <math.h>
@@ -21,6 +25,7 @@ typedef struct scratch {
   double z[N * 3 * B];                                            /* derivatives by the coordinates of the chart */
   double c[MAX_DOFS * 3];
   fs_tensor tensor;
+  bool is_without_gradient;
 } scratch;
 
 size_t fs_assemble_scratch_size(void) { return sizeof(scratch); }
@@ -92,7 +97,7 @@ static void add_block(const fs_problem *p, const fs_basis_table *table, int32_t 
     is_first = false;
   }
   if (order == FS_VALUE || is_first) return;
-  p->kernels->gradient(table->n_dofs, by_dof, s->sum_df, result->gradient);
+  if (!s->is_without_gradient) p->kernels->gradient(table->n_dofs, by_dof, s->sum_df, result->gradient);
   if (order < FS_HESSIAN) return;
   if (table->axis != NULL)
     p->kernels->hessian_tensor(&s->tensor, block, s->sum_ddf);
@@ -104,16 +109,27 @@ static void add_block(const fs_problem *p, const fs_basis_table *table, int32_t 
 static void add_element(const fs_problem *p, const fs_basis_table *table, fs_order order, scratch *s,
                         fs_element_result *result) {
   s->tensor.n_nodes = table->n_nodes;
-  s->tensor.axis = table->axis;
+  s->tensor.axis_u = s->tensor.axis_v = table->axis;
+  s->tensor.is_first_u = s->tensor.is_last_u = s->tensor.is_first_v = true;
+  s->tensor.keeps_rows = false;
   for (int32_t block = 0; block < table->n_blocks; block++) add_block(p, table, block, order, s, result);
   if (order >= FS_HESSIAN && table->axis != NULL) p->kernels->hessian_tensor_finish(&s->tensor, result->hessian);
 }
 
+/* Squares of a coarser mesh, then elements; without squares these are all. */
 typedef struct batch {
   fs_problem *problem;
   fs_order order;
+  const fs_coarse_squares *squares;
   int32_t first;
+  bool is_without_gradient;
 } batch;
+
+/* The element that an item is, or FS_NONE: a square. */
+static int32_t element_of(const batch *b, int32_t item) {
+  if (b->squares == NULL) return item;
+  return item < b->squares->n ? FS_NONE : b->squares->loose[item - b->squares->n];
+}
 
 static bool has_free_dof(const fs_problem *p, const fs_element *e, int32_t n_dofs) {
   for (int32_t d = 0; d < n_dofs; d++)
@@ -121,31 +137,89 @@ static bool has_free_dof(const fs_problem *p, const fs_element *e, int32_t n_dof
   return false;
 }
 
-static fs_status run_batch(void *user, int32_t begin, int32_t end, int32_t worker) {
-  batch *b = user;
+/* The dofs of an element in places 0 … n - 1, or in those of a square that it is turned to. */
+static void gather_dofs(const fs_problem *p, const fs_element *e, int32_t n_dofs, int32_t turn, scratch *s) {
+  for (int32_t d = 0; d < n_dofs; d++) {
+    fs_vec3 c = p->c[p->space->dof[e->dof_start + (turn == 0 ? d : fs_turned_place(d, turn))]];
+    s->c[3 * d] = c.x;
+    s->c[3 * d + 1] = c.y;
+    s->c[3 * d + 2] = c.z;
+  }
+}
+
+static void run_element(const batch *b, const fs_element *e, int32_t worker, fs_element_result *result) {
   fs_problem *p = b->problem;
   scratch *s = p->scratch[worker];
-  for (int32_t i = begin; i < end; i++) {
-    const fs_element *e = &p->space->element[b->first + i];
+  const fs_basis_table *table = p->table[e->extraction];
+  result->order = b->order > FS_VALUE && has_free_dof(p, e, table->n_dofs) ? b->order : FS_VALUE;
+  gather_dofs(p, e, table->n_dofs, 0, s);
+  if (result->order >= FS_GRADIENT) memset(result->gradient, 0, 3 * (size_t)table->n_dofs * sizeof(double));
+  if (result->order >= FS_HESSIAN && table->axis == NULL)
+    memset(result->hessian, 0, 6 * (size_t)table->n_padded * (size_t)table->n_padded * sizeof(double));
+  add_element(p, table, result->order, s, result);
+  if (result->order < FS_HESSIAN) return;
+  fs_element_list(p, e, table->n_dofs, result);
+  result->matrix = result->hessian;
+  result->n_matrix = table->n_padded;
+  if (p->reduction != NULL) fs_element_reduce(p, e, table->n_dofs, table->n_padded, p->work[worker], result);
+}
+
+static void run_square(const batch *b, int32_t number, int32_t worker, fs_element_result *result) {
+  const fs_problem *p = b->problem;
+  const fs_coarse_squares *q = b->squares;
+  scratch *s = p->scratch[worker];
+  fs_tensor *t = &s->tensor;
+  int32_t n_side = q->n_side, at = number * n_side * n_side;
+  result->order = FS_HESSIAN;
+  for (int32_t k = 0; k < n_side * n_side; k++) {
+    const fs_element *e = &p->space->element[q->element[at + k]];
     const fs_basis_table *table = p->table[e->extraction];
-    fs_element_result *result = &p->result[i];
-    result->order = b->order > FS_VALUE && has_free_dof(p, e, table->n_dofs) ? b->order : FS_VALUE;
-    for (int32_t d = 0; d < table->n_dofs; d++) {
-      fs_vec3 c = p->c[p->space->dof[e->dof_start + d]];
-      s->c[3 * d] = c.x;
-      s->c[3 * d + 1] = c.y;
-      s->c[3 * d + 2] = c.z;
-    }
+    t->n_nodes = table->n_nodes;
+    t->axis_u = p->square_axis + (size_t)(k % n_side) * FS_TENSOR_KEPT_ROWS * 16;
+    t->axis_v = p->square_axis + (size_t)(k / n_side) * FS_TENSOR_KEPT_ROWS * 16;
+    t->is_first_u = k % n_side == 0;
+    t->is_last_u = k % n_side == n_side - 1;
+    t->is_first_v = k < n_side;
+    t->keeps_rows = true;
+    gather_dofs(p, e, table->n_dofs, q->turn[at + k], s);
+    for (int32_t block = 0; block < table->n_blocks; block++) add_block(p, table, block, FS_HESSIAN, s, result);
+  }
+  p->kernels->hessian_tensor_finish(t, result->hessian);
+  fs_square_list(q->unknown[number], result);
+  result->matrix = result->hessian;
+  result->n_matrix = FS_TENSOR_SIDE;
+}
+
+static fs_status run_batch(void *user, int32_t begin, int32_t end, int32_t worker) {
+  const batch *b = user;
+  for (int32_t i = begin; i < end; i++) {
+    fs_element_result *result = &b->problem->result[i];
+    int32_t element = element_of(b, b->first + i);
     memset(result->integral, 0, sizeof result->integral);
-    if (result->order >= FS_GRADIENT) memset(result->gradient, 0, 3 * (size_t)table->n_dofs * sizeof(double));
-    if (result->order >= FS_HESSIAN && table->axis == NULL)
-      memset(result->hessian, 0, 6 * (size_t)table->n_padded * (size_t)table->n_padded * sizeof(double));
-    add_element(p, table, result->order, s, result);
-    if (result->order < FS_HESSIAN) continue;
-    fs_element_list(p, e, table->n_dofs, result);
-    if (p->reduction != NULL) fs_element_reduce(p, e, table->n_dofs, table->n_padded, p->work[worker], result);
+    ((scratch *)b->problem->scratch[worker])->is_without_gradient = b->is_without_gradient;
+    if (element == FS_NONE)
+      run_square(b, b->first + i, worker, result);
+    else
+      run_element(b, &b->problem->space->element[element], worker, result);
   }
   return FS_OK;
+}
+
+/* The squares of the reduction, if there are any, with the functions of their unknowns at the nodes. */
+static const fs_coarse_squares *begin_squares(fs_problem *p) {
+  const fs_coarse_squares *q = p->reduction != NULL ? p->reduction->squares : NULL;
+  const fs_basis_table *table;
+  if (q == NULL || q->n == 0) return NULL;
+  table = p->table[p->space->element[q->element[0]].extraction];
+  if (table->n_nodes > FS_TENSOR_KEPT_ROWS) return NULL;
+  for (int32_t a = 0; a < q->n_side; a++)
+    for (int32_t i = 0; i < 4 * table->n_nodes; i++) /* nodes and orders */
+      for (int32_t k = 0; k < 4; k++) {
+        double *to = p->square_axis + (size_t)a * FS_TENSOR_KEPT_ROWS * 16 + (size_t)(4 * i + k);
+        *to = 0;
+        for (int32_t j = 0; j < 4; j++) *to += table->axis[4 * i + j] * q->mask[a + j][k];
+      }
+  return q;
 }
 
 fs_status fs_problem_evaluate(fs_problem *p, fs_order order, double *integral, double *integral_caps, double *g,
@@ -153,28 +227,31 @@ fs_status fs_problem_evaluate(fs_problem *p, fs_order order, double *integral, d
   fs_status status = FS_OK;
   const fs_space *space = p->space;
   double all[FS_MAX_TERMS + 2] = {0}, caps[FS_MAX_TERMS + 2] = {0};
+  batch b = {.problem = p, .order = order, .is_without_gradient = g == NULL};
+  int32_t n_items;
+  if (order >= FS_HESSIAN && g == NULL) b.squares = begin_squares(p);
+  n_items = b.squares != NULL ? b.squares->n + b.squares->n_loose : space->n_elements;
   if (g != NULL) memset(g, 0, 3 * (size_t)p->n_free * sizeof *g);
   if (order >= FS_HESSIAN) fs_sparse_clear(hessian);
-  for (int32_t first = 0; first < space->n_elements; first += p->n_batch) {
-    batch b = {p, order, first};
-    int32_t n = space->n_elements - first < p->n_batch ? space->n_elements - first : p->n_batch;
+  for (; b.first < n_items; b.first += p->n_batch) {
+    int32_t n = n_items - b.first < p->n_batch ? n_items - b.first : p->n_batch;
     FS_TRY(fs_parallel_for(p->ctx, n, run_batch, &b));
     for (int32_t i = 0; i < n; i++) {
-      const fs_element *e = &space->element[first + i];
-      const fs_basis_table *table = p->table[e->extraction];
+      int32_t number = element_of(&b, b.first + i);
+      const fs_element *e = number != FS_NONE ? &space->element[number] : NULL;
       const fs_element_result *result = &p->result[i];
       for (int32_t t = 0; t < p->n_terms; t++) {
         all[t] += result->integral[t];
-        if (space->extraction[e->extraction].valence != 4) caps[t] += result->integral[t];
+        if (e != NULL && space->extraction[e->extraction].valence != 4) caps[t] += result->integral[t];
       }
-      if (result->order == FS_VALUE) continue;
-      for (int32_t d = 0; d < table->n_dofs; d++) {
+      if (result->order == FS_VALUE || g == NULL) continue;
+      for (int32_t d = 0; d < p->table[e->extraction]->n_dofs; d++) {
         int32_t unknown = p->unknown[space->dof[e->dof_start + d]];
         if (unknown == FS_NONE) continue;
         for (int k = 0; k < 3; k++) g[3 * (size_t)unknown + k] += result->gradient[3 * d + k];
       }
     }
-    if (order >= FS_HESSIAN) FS_TRY(fs_scatter_hessians(p, first, n, hessian));
+    if (order >= FS_HESSIAN) FS_TRY(fs_scatter_hessians(p, n, hessian));
   }
   if (integral != NULL) memcpy(integral, all, sizeof *all * (size_t)p->n_terms);
   if (integral_caps != NULL) memcpy(integral_caps, caps, sizeof *caps * (size_t)p->n_terms);
@@ -186,7 +263,7 @@ fs_status fs_problem_find_singular(fs_problem *p, int32_t *face) {
   fs_status status = FS_OK;
   *face = FS_NONE;
   for (int32_t first = 0; first < p->space->n_elements && *face == FS_NONE; first += p->n_batch) {
-    batch b = {p, FS_VALUE, first};
+    batch b = {.problem = p, .order = FS_VALUE, .first = first};
     int32_t n = p->space->n_elements - first < p->n_batch ? p->space->n_elements - first : p->n_batch;
     FS_TRY(fs_parallel_for(p->ctx, n, run_batch, &b));
     for (int32_t i = n - 1; i >= 0; i--)

@@ -2,6 +2,7 @@
 /* Single role: the hierarchy of coarse displacements over a mesh that is a refinement. Only free vertices move, so that rims
    and marks stay, and no coarse surface is needed: the functional is that of the fine surface at x0 + P y. */
 #include "fair/coarse.h"
+#include "fair/coarse_squares.h"
 #include "refine/refine.h"
 
 #include <string.h>
@@ -100,6 +101,8 @@ fs_status fs_coarse_create(fs_context *ctx, const fs_problem *p, const fs_mesh *
     if (n_unknowns < least) break;
     FS_TRY(make_reduction(ctx, p, &coarse, number, n_unknowns, &reduction[*n]));
     ++*n;
+    FS_TRY(fs_coarse_squares_find(p, mesh, coarse.mesh, *n, coarse.origin, number, reduction[*n - 1],
+                                  &reduction[*n - 1]->squares));
     level_release(ctx, &fine);
     fine = coarse;
     coarse = (level){0};

@@ -67,12 +67,13 @@ ALWAYS_INLINE void add_part(int p, int p2, int x, int n, const double *axis, con
       for (int w = 0; w < N_FOUR; w++) four_store(part + (size_t)(4 * y + k) * 4 + w * FOUR_LANES, sum[y][k][w]);
 }
 
-/* part[10][9][k][i] (+)= over n points of the block, which are nodes q … of one row; the row begins at q = 0. */
-static inline void add_along_u(fs_tensor *t, int32_t q, int n, const double *ddf) {
-  const double *axis = t->axis + (size_t)q * 4 * N_ORDERS;
+/* part[10][9][k][i] (+)= over n points of the block, which are nodes q … of row r. */
+static inline void add_along_u(fs_tensor *t, int32_t q, int32_t r, int n, const double *ddf) {
+  const double *axis = t->axis_u + (size_t)q * 4 * N_ORDERS;
+  bool is_new = q == 0 && t->is_first_u;
   for (int x = 0; x < 3; x++) {
-    double *part = t->part + (size_t)3 * x * SIDE;
-#define ADD_PART(p, p2) add_part(p, p2, x, n, axis, ddf, q == 0, part + (size_t)part_of(p, p2) * 9 * SIDE)
+    double *part = t->part + (size_t)(t->keeps_rows ? r : 0) * FS_TENSOR_ROW + (size_t)3 * x * SIDE;
+#define ADD_PART(p, p2) add_part(p, p2, x, n, axis, ddf, is_new, part + (size_t)part_of(p, p2) * 9 * SIDE)
     ADD_PART(0, 0);
     ADD_PART(0, 1);
     ADD_PART(1, 1);
@@ -90,12 +91,14 @@ static inline void add_along_u(fs_tensor *t, int32_t q, int n, const double *ddf
 /* sum[9][j][l][k][i] (+)= the parts of row r; stored, not added, in the first row. */
 static inline void add_along_v(fs_tensor *t, int32_t r) {
   enum { TILE = 2 }; /* vectors of (k, i) */
+  const double *part = t->part + (size_t)(t->keeps_rows ? r : 0) * FS_TENSOR_ROW;
+  bool is_new = r == 0 && t->is_first_v;
   lanes basis[N_ORDERS][4];
   for (int p = 0; p < N_ORDERS; p++)
-    for (int j = 0; j < 4; j++) basis[p][j] = lanes_spread(t->axis[((size_t)r * N_ORDERS + p) * 4 + j]);
+    for (int j = 0; j < 4; j++) basis[p][j] = lanes_spread(t->axis_v[((size_t)r * N_ORDERS + p) * 4 + j]);
   for (int z = 0; z < 9; z++)
     for (int first = 0; first < SIDE; first += TILE * FS_LANES) {
-      const double *from = t->part + (size_t)z * SIDE + first;
+      const double *from = part + (size_t)z * SIDE + first;
       double *to = t->sum + (size_t)z * SIDE * SIDE + first;
       for (int j = 0; j < 4; j++, to += 4 * SIDE) {
         lanes V[N_ORDERS][TILE];
@@ -108,7 +111,7 @@ static inline void add_along_v(fs_tensor *t, int32_t r) {
         for (int l = 0; l < 4; l++)
           for (int w = 0; w < TILE; w++) {
             double *at = to + l * SIDE + w * FS_LANES;
-            lanes s = r == 0 ? (lanes){0} : lanes_load(at);
+            lanes s = is_new ? (lanes){0} : lanes_load(at);
             for (int p2 = 0; p2 < N_ORDERS; p2++) s += basis[p2][l] * V[p2][w];
             lanes_store(at, s);
           }
@@ -121,8 +124,8 @@ void FS_KERNEL(fs_hessian_tensor)(fs_tensor *t, int32_t block, const double *ddf
   for (int32_t point = start, stop; point < end; point = stop) { /* pieces of rows */
     int32_t q = point % n, r = point / n;
     stop = (r + 1) * n < end ? (r + 1) * n : end;
-    add_along_u(t, q, stop - point, ddf + point - start);
-    if (stop == (r + 1) * n) add_along_v(t, r);
+    add_along_u(t, q, r, stop - point, ddf + point - start);
+    if (stop == (r + 1) * n && t->is_last_u) add_along_v(t, r);
   }
 }
 

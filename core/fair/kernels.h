@@ -13,18 +13,22 @@
                pairs of derivatives of N_i[m] ddf_(ia,jb) N_j[m']; by_point[block][9][m_padded] is the table transposed.
                Where a == b only the part on and above the diagonal is meaningful
      hessian_tensor, hessian_tensor_finish
-               the same for bicubic elements, block by block in order, then h[6][16][16] = the result
+               the same for bicubic elements, block by block in order, then h[6][16][16] = the result. Elements side by side
+               with the same 16 dofs can be added up: those of a row one after the other, then those of the next row
      congruence  out[6][n][n] = T^T h T for the six pairs of components, h[6][m_padded][m_padded] as hessian leaves it (both
                parts of the result are there), T[m][n], n a multiple of 8, work[m_padded][n]
      add_scaled  to[n][block] (+)= scale[block] * from[n][block]; the first time it is stored, not added
      to_chart  z[9][3][block] = derivatives by the coordinates of the chart
      add_from_chart  sum_df, sum_ddf += scale[block] * df, ddf by the chart, turned into derivatives by (u, v); ddf NULL: none */
-/* Work space of one element. */
+/* Work space of one element, or of several that are added up. */
 enum { FS_TENSOR_SIDE = 16, FS_TENSOR_PARTS = 10 }; /* pairs of functions of one axis; of orders by v, turned or not */
+enum { FS_TENSOR_ROW = FS_TENSOR_PARTS * 9 * FS_TENSOR_SIDE, FS_TENSOR_KEPT_ROWS = 4 };
 typedef struct fs_tensor {
   int32_t n_nodes;
-  const double *axis; /* [n_nodes][4][4], as in fs_basis_table */
-  double part[FS_TENSOR_PARTS * 9 * FS_TENSOR_SIDE], sum[9 * FS_TENSOR_SIDE * FS_TENSOR_SIDE];
+  const double *axis_u, *axis_v;          /* [n_nodes][4][4] as in fs_basis_table, of this element */
+  bool is_first_u, is_last_u, is_first_v; /* where it stands in the row of elements; in the first row */
+  bool keeps_rows;                        /* of nodes, at most FS_TENSOR_KEPT_ROWS, until the last element of the row */
+  double part[FS_TENSOR_KEPT_ROWS * FS_TENSOR_ROW], sum[9 * FS_TENSOR_SIDE * FS_TENSOR_SIDE];
 } fs_tensor;
 
 typedef void fs_density_kernel(const double *x, double *f, double *df, double *ddf);

@@ -2,6 +2,7 @@
 /* Single role: tables, unknowns, pattern and buffers of a problem. */
 #include "fair/problem.h"
 #include "fair/assemble.h"
+#include "fair/coarse_squares.h"
 
 #include <string.h>
 
@@ -118,6 +119,8 @@ static void free_reduced(fs_problem *p) {
     fs_release(p->ctx, p->work[i]);
     p->work[i] = NULL;
   }
+  fs_release(p->ctx, p->square_axis);
+  p->square_axis = NULL;
 }
 
 fs_status fs_problem_reduce(fs_problem *p, const fs_reduction *reduction) {
@@ -138,6 +141,8 @@ fs_status fs_problem_reduce(fs_problem *p, const fs_reduction *reduction) {
   }
   if (n > p->n_listed) p->n_listed = n;
   for (int32_t i = 0; i < fs_n_workers(p->ctx); i++) FS_ALLOC(p->ctx, p->work[i], 2 * p->n_largest * n);
+  if (reduction->squares != NULL)
+    FS_ALLOC(p->ctx, p->square_axis, (size_t)reduction->squares->n_side * FS_TENSOR_KEPT_ROWS * 16);
   p->reduction = reduction;
 done:
   return status;

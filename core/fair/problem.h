@@ -19,7 +19,9 @@ typedef struct fs_element_result {
   double *hessian;       /* [6][n_padded][n_padded]: component pairs xx xy xz yy yz zz; xx, yy, zz: upper part only */
   double *reduced;       /* the same by the unknowns of a reduction, n_list of them */
   int32_t n_list;        /* unknowns of the element */
-  int32_t *list, *place; /* [n_list] ascending, and the rows of hessian or reduced where they stand */
+  int32_t *list, *place; /* [n_list] ascending, and the rows of the matrix where they stand */
+  const double *matrix;  /* hessian or reduced */
+  int32_t n_matrix;      /* its rows */
 } fs_element_result;
 
 /* How many quadrature nodes: all; few, for steps far from the end; still fewer, for displacements of coarser meshes; and nearly
@@ -41,12 +43,13 @@ typedef struct fs_problem {
   int32_t *unknown;              /* [n_dofs] number among the free dofs, or FS_NONE */
   fs_sparse *pattern;            /* of the Hessian */
   const fs_reduction *reduction; /* borrowed: Hessians are those by its unknowns; NULL: by the free dofs */
-  size_t n_largest, n_listed;    /* the most dofs of an element, padded; the unknowns that a list has room for */
-  fs_vec3 *c;                    /* [n_dofs] the dofs at the last x */
-  int32_t n_batch;               /* elements whose results are kept at once */
-  fs_element_result *result;     /* [n_batch] */
-  void **scratch;                /* [workers] */
-  double **work;                 /* [workers] with a reduction: [2 n_largest][the most of its unknowns in an element] */
+  double *square_axis;        /* with coarse squares: [n_side][FS_TENSOR_KEPT_ROWS][4][4], functions of its unknowns */
+  size_t n_largest, n_listed; /* the most dofs of an element, padded; the unknowns that a list has room for */
+  fs_vec3 *c;                 /* [n_dofs] the dofs at the last x */
+  int32_t n_batch;            /* elements whose results are kept at once */
+  fs_element_result *result;  /* [n_batch] */
+  void **scratch;             /* [workers] */
+  double **work;              /* [workers] with a reduction: [2 n_largest][the most of its unknowns in an element] */
 } fs_problem;
 
 /* fixed[n_dofs] or NULL. n_nodes: Gauss nodes per direction on squares and in caps. Weights are the caller's to set later. */
@@ -63,7 +66,8 @@ void fs_problem_free(fs_context *ctx, fs_problem *problem); /* NULL is allowed *
 fs_status fs_problem_reduce(fs_problem *problem, const fs_reduction *reduction);
 
 /* Integrals of the terms at problem->c, all elements (integral[n_terms]) and those on caps; with order above FS_VALUE also the
-   gradient g[3 n_free] and the Hessian of the weighted sum. Unused outputs may be NULL. */
+   gradient g[3 n_free] and the Hessian of the weighted sum. Unused outputs may be NULL; a Hessian by the unknowns of a reduction
+   comes without gradient, g NULL. */
 fs_status fs_problem_evaluate(fs_problem *problem, fs_order order, double *integral, double *integral_caps, double *g,
                               fs_sparse *hessian);
 

@@ -3,6 +3,7 @@
      x = x0 + T y,   g_y = T^T g,   H_y = T^T H T = A + A^T,  A = T^T L T,
    L the lower triangle of H with half its diagonal. A is made column by column of L: first w = T^T L_j, then w T_j. */
 #include "fair/reduce.h"
+#include "fair/coarse_squares.h"
 
 #include <string.h>
 
@@ -14,6 +15,7 @@ void fs_reduction_free(fs_context *ctx, fs_reduction *r) {
   fs_release(ctx, r->weight);
   fs_release(ctx, r->x0);
   fs_release(ctx, r->is_idle);
+  fs_coarse_squares_free(ctx, r->squares);
   fs_release(ctx, r);
 }
 

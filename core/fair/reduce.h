@@ -10,12 +10,13 @@
    are 3x3 matrices, or numbers that stand for multiples of the unit matrix. */
 typedef struct fs_reduction {
   int32_t n_rows, n_columns;
-  int32_t *row_start; /* [n_rows + 1] */
-  int32_t *column;    /* [row_start[n_rows]] */
-  double *block;      /* [row_start[n_rows]][9], row-major */
-  double *weight;     /* [row_start[n_rows]] */
-  double *x0;         /* [3 n_rows] */
-  bool *is_idle;      /* [3 n_columns] numbers of y that nothing depends on, there to fill a group; NULL: none */
+  int32_t *row_start;                /* [n_rows + 1] */
+  int32_t *column;                   /* [row_start[n_rows]] */
+  double *block;                     /* [row_start[n_rows]][9], row-major */
+  double *weight;                    /* [row_start[n_rows]] */
+  double *x0;                        /* [3 n_rows] */
+  struct fs_coarse_squares *squares; /* of displacements of a coarser mesh; or NULL */
+  bool *is_idle; /* [3 n_columns] numbers of y that nothing depends on, there to fill a group; NULL: none */
 } fs_reduction;
 
 void fs_reduction_free(fs_context *ctx, fs_reduction *reduction); /* NULL is allowed */

@@ -10,6 +10,19 @@
 
 enum { N_SHARES = 64, COLUMNS_PER_SHARE = 16 };
 
+/* By insertion: short, and nearly sorted as a rule. */
+static void sort_list(fs_element_result *result) {
+  for (int32_t i = 1; i < result->n_list; i++) {
+    int32_t unknown = result->list[i], place = result->place[i], j = i;
+    for (; j > 0 && result->list[j - 1] > unknown; j--) {
+      result->list[j] = result->list[j - 1];
+      result->place[j] = result->place[j - 1];
+    }
+    result->list[j] = unknown;
+    result->place[j] = place;
+  }
+}
+
 void fs_element_list(const fs_problem *p, const fs_element *e, int32_t n_dofs, fs_element_result *result) {
   const fs_reduction *r = p->reduction;
   result->n_list = 0;
@@ -30,15 +43,17 @@ void fs_element_list(const fs_problem *p, const fs_element *e, int32_t n_dofs, f
       result->n_list++;
     }
   }
-  for (int32_t i = 1; i < result->n_list; i++) { /* by insertion: short, and nearly sorted as a rule */
-    int32_t unknown = result->list[i], place = result->place[i], j = i;
-    for (; j > 0 && result->list[j - 1] > unknown; j--) {
-      result->list[j] = result->list[j - 1];
-      result->place[j] = result->place[j - 1];
-    }
-    result->list[j] = unknown;
-    result->place[j] = place;
+  sort_list(result);
+}
+
+void fs_square_list(const int32_t unknown[16], fs_element_result *result) {
+  result->n_list = 0;
+  for (int32_t k = 0; k < 16; k++) {
+    if (unknown[k] == FS_NONE) continue;
+    result->list[result->n_list] = unknown[k];
+    result->place[result->n_list++] = k;
   }
+  sort_list(result);
 }
 
 /* T[n_dofs][n_padded] of the element, columns in the places of the list. */
@@ -70,18 +85,21 @@ void fs_element_reduce(const fs_problem *p, const fs_element *e, int32_t n_dofs,
   local_map(p, e, n_dofs, result, n_padded, work);
   p->kernels->congruence(n_dofs, m_padded, n_padded, work, result->hessian, work + (size_t)n_dofs * (size_t)n_padded,
                          result->reduced);
+  result->matrix = result->reduced;
+  result->n_matrix = n_padded;
 }
 
 typedef struct batch {
-  const fs_problem *problem;
-  int32_t first, n;
+  const fs_element_result *result;
+  int32_t n;
   fs_sparse *hessian;
 } batch;
 
-/* h[6][m][m] of one element to the columns of the shares begin .. end - 1. */
-static void add_element(const fs_element_result *result, const double *h, size_t m, int32_t begin, int32_t end,
-                        fs_sparse *hessian) {
+/* The matrix of one element to the columns of the shares begin .. end - 1. */
+static void add_element(const fs_element_result *result, int32_t begin, int32_t end, fs_sparse *hessian) {
   static const int pair[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  const double *h = result->matrix;
+  size_t m = (size_t)result->n_matrix;
   for (int32_t s = 0; s < result->n_list; s++) {
     int32_t j = result->list[s], share = j / COLUMNS_PER_SHARE % N_SHARES, first = s, n;
     const int32_t *row;
@@ -109,21 +127,13 @@ static void add_element(const fs_element_result *result, const double *h, size_t
 
 static fs_status add_batch(void *user, int32_t begin, int32_t end, int32_t worker) {
   const batch *b = user;
-  const fs_problem *p = b->problem;
   (void)worker;
-  for (int32_t i = 0; i < b->n; i++) {
-    const fs_element *e = &p->space->element[b->first + i];
-    const fs_element_result *result = &p->result[i];
-    if (result->order < FS_HESSIAN) continue;
-    if (p->reduction != NULL)
-      add_element(result, result->reduced, (size_t)(result->n_list + 7) / 8 * 8, begin, end, b->hessian);
-    else
-      add_element(result, result->hessian, (size_t)p->table[e->extraction]->n_padded, begin, end, b->hessian);
-  }
+  for (int32_t i = 0; i < b->n; i++)
+    if (b->result[i].order >= FS_HESSIAN) add_element(&b->result[i], begin, end, b->hessian);
   return FS_OK;
 }
 
-fs_status fs_scatter_hessians(const fs_problem *p, int32_t first, int32_t n, fs_sparse *hessian) {
-  batch b = {p, first, n, hessian};
+fs_status fs_scatter_hessians(const fs_problem *p, int32_t n, fs_sparse *hessian) {
+  batch b = {p->result, n, hessian};
   return fs_parallel_for(p->ctx, N_SHARES, add_batch, &b);
 }

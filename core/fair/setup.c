@@ -157,7 +157,8 @@ static fs_status evaluate(fs_setup *s, fs_order order, double *integral, double 
     memset(unused, 0, sizeof unused);
     s->functional->combine(s->param, &s->scale, unused, f, s->problem->weight);
   }
-  FS_TRY(fs_problem_evaluate(s->problem, order, integral, caps, g, hessian));
+  FS_TRY(fs_problem_evaluate(s->problem, order, integral, caps,
+                             order >= FS_HESSIAN && s->problem->reduction != NULL ? NULL : g, hessian));
   if (s->volume != NULL && order > FS_VALUE) FS_TRY(fs_volume_evaluate(s->volume, order, by_volume, NULL, g, hessian));
   area = s->volume != NULL ? integral[s->term_A] : 0;
   if (s->volume != NULL) put_volume(s, volume, integral);
@@ -226,7 +227,7 @@ static fs_status at(fs_setup *s, fs_order order, const double *x, double *f, dou
   if (is_after) full_hessian = s->problem->pattern;
   FS_TRY(evaluate(s, order, integral, NULL, f, full_g, full_hessian));
   if (s->wall != NULL) FS_TRY(fs_wall_add(s->wall, order, f, full_g, full_hessian));
-  if (is_reduced && order >= FS_GRADIENT) fs_reduction_gather(s->reduction, s->g, g);
+  if (is_reduced && (order == FS_GRADIENT || is_after)) fs_reduction_gather(s->reduction, s->g, g);
   if (is_after && order >= FS_HESSIAN)
     FS_TRY(fs_reduction_hessian(s->problem->ctx, s->reduction, s->problem->pattern, hessian));
   count_costs(s, order, fs_clock_processor_seconds() - begin);

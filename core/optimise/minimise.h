@@ -13,7 +13,7 @@ typedef struct fs_objective {
   fs_solver *solver;        /* made for that pattern */
   void *self;
   fs_status (*gradient)(void *self, const double *x, double *f, double *g);
-  /* The Hessian, or something near to it; f and g are by-products that nobody uses. */
+  /* The Hessian, or something near to it; f and g[3 n] are room for by-products that nobody uses. */
   fs_status (*hessian)(void *self, const double *x, double *f, double *g, fs_sparse *hessian);
   /* A vector v[3 n] to which steps stay orthogonal; NULL: none. The Hessian need only be right on such steps. */
   fs_status (*normal)(void *self, const double *x, double *v);

@@ -8,7 +8,7 @@
 
 enum { N_DOFS = 16 };
 
-static bool is_regular(const fs_mesh *mesh, int32_t face) {
+bool fs_face_is_regular(const fs_mesh *mesh, int32_t face) {
   if (fs_mesh_face_size(mesh, face) != 4) return false;
   for (int32_t h = mesh->face_start[face]; h < mesh->face_start[face + 1]; h++) {
     int32_t vertex = mesh->origin[h];
@@ -20,12 +20,12 @@ static bool is_regular(const fs_mesh *mesh, int32_t face) {
 static fs_status claim(fs_context *ctx, const fs_mesh *mesh, int32_t rule, int32_t *owner) {
   (void)ctx;
   for (int32_t f = 0; f < mesh->n_faces; f++)
-    if (owner[f] == FS_NONE && is_regular(mesh, f)) owner[f] = rule;
+    if (owner[f] == FS_NONE && fs_face_is_regular(mesh, f)) owner[f] = rule;
   return FS_OK;
 }
 
-/* net[x + 4 y]: walks over the 3x3 faces around that of h, row by row from the lower left. */
-static void collect_net(const fs_mesh *mesh, int32_t h, int32_t *net) {
+/* Walks over the 3x3 faces around that of h, row by row from the lower left. */
+void fs_collect_net(const fs_mesh *mesh, int32_t h, int32_t *net) {
   int32_t row = fs_walk_down(mesh, fs_walk_left(mesh, h));
   for (int y = 0; y < 3; y++) {
     int32_t g = row;
@@ -61,7 +61,7 @@ static fs_status build(fs_context *ctx, const fs_mesh *mesh, int32_t rule, const
       FS_TRY(fs_builder_add_extraction(
           builder, &(fs_extraction){.degree_u = 3, .degree_v = 3, .n_dofs = N_DOFS, .E = E, .segment = S, .valence = 4},
           &index));
-    collect_net(mesh, mesh->face_start[f], net);
+    fs_collect_net(mesh, mesh->face_start[f], net);
     FS_TRY(fs_builder_add_element(builder, mesh->face_start[f], index, net));
   }
 done:

@@ -31,6 +31,12 @@ bool fs_face_touches_boundary(const fs_mesh *mesh, int32_t face);
 /* All faces that share a vertex with the face are quadrilaterals (the face itself too); its vertices must be interior. */
 bool fs_face_is_among_quads(const fs_mesh *mesh, int32_t face);
 
+/* A quadrilateral among quadrilaterals whose vertices are interior with valence 4: it carries a bicubic B-spline. */
+bool fs_face_is_regular(const fs_mesh *mesh, int32_t face);
+
+/* net[x + 4 y] = the dofs of a regular face, which lies between dofs (1, 1) and (2, 2), from there along its half-edge h. */
+void fs_collect_net(const fs_mesh *mesh, int32_t h, int32_t *net);
+
 /* A cap can be put around this special vertex: valence 3, 5 .. 24, and all faces around it are among quadrilaterals with
    no other special vertex and none of the boundary. */
 bool fs_vertex_takes_cap(const fs_mesh *mesh, int32_t vertex);

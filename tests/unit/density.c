@@ -289,7 +289,9 @@ static void test_tensor(void **state) {
     memset(&tensor, 255, sizeof tensor); /* not numbers */
     memset(h, 255, sizeof h);
     tensor.n_nodes = NODES_OF_AXIS;
-    tensor.axis = axis;
+    tensor.axis_u = tensor.axis_v = axis;
+    tensor.is_first_u = tensor.is_last_u = tensor.is_first_v = true;
+    tensor.keeps_rows = false;
     for (int block = 0; block < 2; block++) all[s]->hessian_tensor(&tensor, block, ddf + block * SIZE);
     all[s]->hessian_tensor_finish(&tensor, h);
     for (int p = 0; p < 6; p++)
