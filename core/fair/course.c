@@ -63,7 +63,7 @@ static fs_status enter_depth(fs_course *c, int32_t depth) {
   if (c->solver != NULL && c->depth == depth) return FS_OK;
   fs_course_leave_depth(c);
   c->damping.is_factored = false;
-  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = FINER_DAMPING};
+  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = c->setup.has_metric ? 1 : FINER_DAMPING};
   if (depth > 0) {
     reduction = c->coarse[depth - 1];
     c->coarse[depth - 1] = NULL;
@@ -95,7 +95,12 @@ static fs_status minimise(fs_course *c, const fs_stage *stage, const fs_objectiv
   if (c->setup.wall != NULL) { /* the forces of the wall change after each stage */
     o.decrease_tolerance = fmax(o.decrease_tolerance, c->wall_tolerance);
   } else if (stage->is_last && stage->tolerance <= 1e-12 && !options->along_normals) {
-    o.is_newton = true;
+    /* a Newton step to begin with: what failed on the way here tells nothing about the minimum, and an undamped factorisation
+       proves that it is one */
+    o.is_newton = c->n_coarse == 0; /* small meshes: Hessians cost little, and the steps converge quadratically */
+    c->damping.is_factored = false;
+    c->damping.nu_failed = 0;
+    if (c->setup.has_metric) c->damping.nu = 0;
     o.gradient_tolerance = options->gradient_tolerance == 0 ? 1e-8 : options->gradient_tolerance;
     o.gradient_start = c->gradient_start;
   }

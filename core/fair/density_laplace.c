@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Single role: the two densities made of the gradient of the Laplacian, with a = p_uuu + p_uvv, b = p_uuv + p_vvv:
+/* Single role: the densities made of the gradient of the Laplacian, with a = p_uuu + p_uvv, b = p_uuv + p_vvv:
 
      triharmonic  |a|^2 + |b|^2
      tangential   |a|^2 + |b|^2 - ((n.a)^2 + (n.b)^2) / |n|^2,   n = p_u x p_v      [Kiciak 2013, the penalty Q]
+     held         the same with n held: second derivatives are semidefinite
 
    With g(n, a) = (n.a)^2 / w, w = |n|^2, z = n.a:
      g_a  = 2 z n / w                    g_n  = 2 z a / w - 2 z^2 n / w^2
@@ -42,6 +43,23 @@ static inline void harmonic(const lanes (*p)[3], lanes *f, lanes (*df)[3], lanes
     identity[0] = identity[4] = identity[8] = lanes_spread(2.0);
     for (int k = 0; k < 2; k++) add_to_parts(ddf, k, identity);
   }
+}
+
+static inline void held(const lanes (*p)[3], lanes *f, lanes (*df)[3], lanes (*ddf)[9]) {
+  lanes sum[2][3], n[3], aa[9];
+  harmonic(p, f, df, ddf);
+  sums(p, sum);
+  lanes_cross(n, p[D_U], p[D_V]);
+  lanes w = 1.0 / lanes_dot(n, n);
+  for (int k = 0; k < 2; k++) {
+    lanes z = lanes_dot(n, sum[k]);
+    *f -= z * z * w;
+    for (int i = 0; i < 2 && df != NULL; i++)
+      for (int a = 0; a < 3; a++) df[parts[k][i]][a] -= 2.0 * z * w * n[a];
+  }
+  if (ddf == NULL) return;
+  for (int i = 0; i < 9; i++) aa[i] = -2.0 * w * n[i / 3] * n[i % 3];
+  for (int k = 0; k < 2; k++) add_to_parts(ddf, k, aa);
 }
 
 /* out = A^T M B for the matrices A, B of v -> x x v, or the identity where x is NULL; sign by the caller. */
@@ -124,4 +142,5 @@ static inline void tangential(const lanes (*p)[3], lanes *f, lanes (*df)[3], lan
 }
 
 FS_DENSITY_KERNELS(triharmonic, ~(FS_PAIRS_TRIHARMONIC), harmonic)
+FS_DENSITY_KERNELS(tangential_held, ~(FS_PAIRS_TRIHARMONIC), held)
 FS_DENSITY_KERNELS(tangential, ~(FS_PAIRS_TANGENTIAL), tangential)

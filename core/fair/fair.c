@@ -25,7 +25,7 @@ static fs_status run_stages(fs_course *c) {
   int32_t n = fs_stages_plan(&c->setup, c->options, c->n_coarse, stages);
   bool is_over = false;
   /* coarse displacements are smooth and trials cheap: far less damping than a raw mesh needs */
-  c->damping = (fs_damping){.nu = fs_is_quadratic(c->setup.functional) ? 0 : c->n_coarse > 0 ? 1e-3 : 1};
+  c->damping.nu = fs_is_quadratic(c->setup.functional) ? 0 : c->n_coarse > 0 && !c->setup.has_metric ? 1e-3 : 1;
   for (int32_t i = 0; i < n && !is_over; i++) {
     if (c->options->along_normals) stages[i].depth = 1;
     FS_TRY(fs_course_run_stage(c, &stages[i], &is_over));
@@ -95,6 +95,7 @@ static fs_status run_course(fs_course *c, const fs_space *space) {
       p->n_free >= LEAST_FREE)
     FS_TRY(fs_coarse_create(c->ctx, p, c->options->mesh, least, c->coarse, &c->n_coarse));
   c->report->n_coarse = c->n_coarse;
+  c->setup.has_metric = !c->options->along_normals && c->setup.wall == NULL && fs_setup_metric_weight(&c->setup) > 0;
   FS_TRY(run_stages(c));
   FS_TRY(fs_problem_set_level(p, 0));
   fs_setup_place(&c->setup, c->x);

@@ -14,6 +14,9 @@ static void curvature_variation(const double *x, double *f, double *df, double *
 static void tangential(const double *x, double *f, double *df, double *ddf) {
   fs_kernels_choose()->tangential(x, f, df, ddf);
 }
+static void tangential_held(const double *x, double *f, double *df, double *ddf) {
+  fs_kernels_choose()->tangential_held(x, f, df, ddf);
+}
 static void triharmonic(const double *x, double *f, double *df, double *ddf) {
   fs_kernels_choose()->triharmonic(x, f, df, ddf);
 }
@@ -29,6 +32,11 @@ const fs_density fs_density_tangential = {.name = "tangential",
                                           .order = 3,
                                           .zero_pairs = ~(FS_PAIRS_TANGENTIAL),
                                           .evaluate = tangential};
+const fs_density fs_density_tangential_held = {.name = "tangential-held",
+                                               .summary = "the same with the normals held",
+                                               .order = 3,
+                                               .zero_pairs = ~(FS_PAIRS_TRIHARMONIC),
+                                               .evaluate = tangential_held};
 const fs_density fs_density_triharmonic = {.name = "triharmonic",
                                            .summary = "|grad Laplace p|^2",
                                            .order = 3,

@@ -7,7 +7,9 @@
   void fs_curvature_variation##suffix(const double *, double *, double *, double *);                                  \
   void fs_tangential##suffix(const double *, double *, double *, double *);                                           \
   void fs_triharmonic##suffix(const double *, double *, double *, double *);                                          \
-  fs_sum_kernel fs_sum_curvature_variation##suffix, fs_sum_tangential##suffix, fs_sum_triharmonic##suffix;            \
+  void fs_tangential_held##suffix(const double *, double *, double *, double *);                                      \
+  fs_sum_kernel fs_sum_curvature_variation##suffix, fs_sum_tangential##suffix, fs_sum_triharmonic##suffix,            \
+      fs_sum_tangential_held##suffix;                                                                                 \
   void fs_jets##suffix(int32_t, const double *, const double *, double *);                                            \
   void fs_gradient##suffix(int32_t, const double *, const double *, double *);                                        \
   void fs_hessian##suffix(int32_t, const double *, const double *, double *);                                         \
@@ -21,6 +23,8 @@
                                              .curvature_variation = fs_curvature_variation##suffix,                   \
                                              .tangential = fs_tangential##suffix,                                     \
                                              .triharmonic = fs_triharmonic##suffix,                                   \
+                                             .tangential_held = fs_tangential_held##suffix,                           \
+                                             .sum_tangential_held = fs_sum_tangential_held##suffix,                   \
                                              .sum_curvature_variation = fs_sum_curvature_variation##suffix,           \
                                              .sum_tangential = fs_sum_tangential##suffix,                             \
                                              .sum_triharmonic = fs_sum_triharmonic##suffix,                           \
@@ -46,6 +50,7 @@ int32_t fs_kernels_all(const fs_kernels *all[4]) {
 fs_sum_kernel *fs_kernels_sum_of(const fs_kernels *kernels, const fs_density *density) {
   if (density == &fs_density_curvature_variation) return kernels->sum_curvature_variation;
   if (density == &fs_density_tangential) return kernels->sum_tangential;
+  if (density == &fs_density_tangential_held) return kernels->sum_tangential_held;
   if (density == &fs_density_triharmonic) return kernels->sum_triharmonic;
   return NULL;
 }

@@ -38,8 +38,8 @@ typedef void fs_sum_kernel(const double *x, const double *scale, int n, bool is_
                            double *ddf);
 typedef struct fs_kernels {
   const char *name;
-  fs_density_kernel *curvature_variation, *tangential, *triharmonic;
-  fs_sum_kernel *sum_curvature_variation, *sum_tangential, *sum_triharmonic;
+  fs_density_kernel *curvature_variation, *tangential, *tangential_held, *triharmonic;
+  fs_sum_kernel *sum_curvature_variation, *sum_tangential, *sum_tangential_held, *sum_triharmonic;
   void (*jets)(int32_t m, const double *table, const double *c, double *x);
   void (*gradient)(int32_t m, const double *table, const double *df, double *g);
   void (*hessian)(int32_t m_padded, const double *by_point, const double *ddf, double *h);
@@ -51,6 +51,9 @@ typedef struct fs_kernels {
   void (*add_from_chart)(const double *inverse, const double *scale, const double *df, const double *ddf,
                          double *sum_df, double *sum_ddf);
 } fs_kernels;
+
+/* fs_density_tangential with the normals held in its derivatives, the second of which are semidefinite. */
+extern const fs_density fs_density_tangential_held;
 
 /* Of the densities whose derivatives by (u, v) are added without further ado; NULL: has none. */
 fs_sum_kernel *fs_kernels_sum_of(const fs_kernels *kernels, const fs_density *density);

@@ -67,6 +67,7 @@ done:
 void fs_setup_free(fs_context *ctx, fs_setup *s) {
   fs_reduction_free(ctx, s->reduction);
   fs_sparse_free(ctx, s->reduced);
+  fs_release(ctx, s->metric.value);
   fs_release(ctx, s->x);
   fs_release(ctx, s->g);
   fs_volume_free(s->volume);
@@ -79,6 +80,7 @@ void fs_setup_free(fs_context *ctx, fs_setup *s) {
   s->x = s->g = NULL;
   s->volume = s->normals = NULL;
   s->wall = NULL;
+  s->metric.value = NULL;
 }
 
 /* ---- fewer unknowns ---------------------------------------------------------------------------------------------- */
@@ -90,6 +92,8 @@ fs_status fs_setup_reduce(fs_setup *s, fs_reduction *reduction) {
   int32_t *member = NULL;
   fs_reduction_free(ctx, s->reduction);
   fs_sparse_free(ctx, s->reduced);
+  fs_release(ctx, s->metric.value);
+  s->metric.value = NULL;
   s->reduction = reduction;
   s->reduced = NULL;
   FS_TRY(fs_problem_reduce(s->problem, NULL));
@@ -264,6 +268,55 @@ static fs_status normal(void *self, const double *x, double *v) {
   return status;
 }
 
+#define METRIC_C 1e-2
+
+double fs_setup_metric_weight(const fs_setup *s) {
+  double param[FS_MAX_FUNCTIONAL_PARAMS], integral[FS_MAX_TERMS + 2] = {0}, weight[FS_MAX_TERMS + 2] = {0}, f;
+  if (!s->functional->is_linear || s->term_Q >= s->functional->n_terms) return 0;
+  memcpy(param, s->param, sizeof param);
+  param[0] = fmax(param[0], METRIC_C);
+  s->functional->combine(param, &s->scale, integral, &f, weight);
+  return weight[s->term_Q];
+}
+
+/* The problem becomes the integral of Q with this weight, normals held; undone by putting back what it was. */
+static void leave_only_Q(fs_problem *p, int32_t term_Q, double weight) {
+  memset(p->weight, 0, sizeof p->weight);
+  p->weight[term_Q] = weight;
+  p->term[term_Q] = &fs_density_tangential_held;
+  p->sum[term_Q] = fs_kernels_sum_of(p->kernels, &fs_density_tangential_held);
+}
+
+/* The Hessian of Q with the weight that it has where C is METRIC_C or more: damping by nu is like raising C to nu METRIC_C, as
+   seen from x. It changes little on the way, and is made once for all steps with the same unknowns. */
+static fs_status metric(void *self, const double *x, const fs_sparse **result) {
+  fs_status status = FS_OK;
+  fs_setup *s = self;
+  fs_problem *p = s->problem, kept = *p;
+  bool by_element = p->reduction != NULL, is_summed_later = s->reduction != NULL && !by_element;
+  *result = &s->metric;
+  if (s->metric.value != NULL) return FS_OK;
+  s->metric = *fs_setup_pattern(s);
+  s->metric.value = NULL;
+  FS_ALLOC(p->ctx, s->metric.value, 9 * (size_t)s->metric.col_start[s->metric.n_blocks]);
+  fs_setup_place(s, x);
+  leave_only_Q(p, s->term_Q, fs_setup_metric_weight(s));
+  FS_TRY(fs_problem_set_level(p, by_element ? FS_NODES_LEAST : FS_NODES_FEW));
+  FS_TRY(fs_problem_evaluate(p, FS_HESSIAN, NULL, NULL, NULL, is_summed_later ? p->pattern : &s->metric));
+  if (is_summed_later) FS_TRY(fs_reduction_hessian(p->ctx, s->reduction, p->pattern, &s->metric));
+done:
+  memcpy(p->weight, kept.weight, sizeof p->weight);
+  p->term[s->term_Q] = kept.term[s->term_Q];
+  p->sum[s->term_Q] = kept.sum[s->term_Q];
+  p->level = kept.level;
+  p->table = p->tables[p->level];
+  if (status != FS_OK) {
+    fs_release(p->ctx, s->metric.value);
+    s->metric.value = NULL;
+  }
+  return status;
+}
+
 fs_objective fs_setup_objective(fs_setup *s, fs_solver *solver) {
   return (fs_objective){.n = fs_setup_n(s),
                         .pattern = fs_setup_pattern(s),
@@ -271,5 +324,6 @@ fs_objective fs_setup_objective(fs_setup *s, fs_solver *solver) {
                         .self = s,
                         .gradient = gradient,
                         .hessian = hessian,
+                        .metric = s->has_metric ? metric : NULL,
                         .normal = s->functional->is_scale_free ? normal : NULL};
 }

@@ -23,6 +23,8 @@ typedef struct fs_setup {
      few nodes, and those after them with nearly all. */
   bool has_near_hessians;
   int32_t n_cheap_hessians;
+  bool has_metric;  /* steps are damped by the Hessian of Q; only where fs_setup_metric_weight is above 0 */
+  fs_sparse metric; /* that of the unknowns, made at first use; value NULL: not yet */
   fs_costs costs;
   fs_volume *volume; /* where it is kept, V^(2/3) times volume_factor stands for the area in the functional; or NULL */
   double volume_sign, volume_factor;
@@ -60,6 +62,9 @@ void fs_setup_place(fs_setup *setup, const double *y);
 
 /* Energies at problem->c; g[3 n_free] receives the gradient. */
 fs_status fs_setup_measure(fs_setup *setup, double *g, fs_energy *energy);
+
+/* Weight of Q in the metric by which steps may be damped (docs/decisions/0017); 0: there is none. */
+double fs_setup_metric_weight(const fs_setup *setup);
 
 /* The setup as an objective for fs_minimise; solver may be NULL where only values are wanted. */
 fs_objective fs_setup_objective(fs_setup *setup, fs_solver *solver);

@@ -6,15 +6,14 @@
      model      predicted decrease  = -g.s / 2 + nu s.D s / 2
      gain       rho = (f(x) - f(x + s)) / predicted
 
-   nu follows rho: a factorisation costs far more than anything else, so nu falls quickly where the model is good
-   (to a Newton step in the end, with its quadratic convergence) and a memory of the largest nu at which H + nu D was not
-   definite, or whose step was rejected, keeps it from falling into the same hole at the next step. D makes nu free of units,
-   and being the same for x, y, z, free of rotations. Differs from Nielsen's update, which needs more Hessians.
+   nu follows rho (damping.c). D makes nu free of units, and being the same for x, y, z, free of rotations. An objective may bring
+   a D of its own, a semidefinite matrix that weighs motions as the objective does: its metric.
 
    For the same reason every factorisation is used again for as long as it pays: steps s = -B g, where B is its inverse
    corrected by the pairs of steps and gradient changes since (memory.c). One costs a gradient and a solution. A caller who wants
    the quadratic convergence of Newton's method at the end asks for a Hessian per step. */
 #include "optimise/minimise.h"
+#include "optimise/damping.h"
 #include "optimise/memory.h"
 
 #include <float.h>
@@ -23,17 +22,25 @@
 
 enum { MAX_SHORTENED = 3, MAX_LENGTH = 100 };
 enum { MAX_TRIALS = 60 }; /* factorisations for one step: nu has grown beyond any use by then */
-/* Of a quasi-Newton step: its predicted decrease by that of the step before; with a factorisation from before the start, which
-   belongs to another function, and with one of our own. */
-static const double worth_going_on_old = 0.1, worth_going_on = 0.5;
+/* Of a quasi-Newton step: its predicted decrease by that of the step before. */
+static const double worth_going_on = 0.5;
+
+/* Predicted decreases relative to f below which the rest of the way is short. */
+static const double short_way = 1e-3;
+
+/* A metric may be blind to some motions. Where nu had to grow large the diagonal helps, shifted by this times nu^2. */
+static const double of_diagonal = 1e-10;
 
 typedef struct state {
   int32_t n;
   double *x, *trial, *g, *g_trial, *s, *diagonal, *shift;
-  double *v, *w; /* the normal, and (H + nu D)^-1 times it */
-  double f, f_trial, f_begin, nu, nu_min, nu_failed, growth;
-  double nu_factored; /* in the factorisation that is there */
-  fs_sparse hessian;  /* values of its own on the pattern of the objective */
+  double *product; /* with a metric: of it and a step */
+  double *v, *w;   /* the normal, and (H + nu D)^-1 times it */
+  double f, f_trial, f_begin;
+  fs_nu nu;
+  double nu_factored;      /* in the factorisation that is there */
+  fs_sparse hessian;       /* values of its own on the pattern of the objective */
+  const fs_sparse *metric; /* of the objective; NULL: the diagonal */
   fs_solver *solver;
   fs_memory memory;           /* of steps since the last factorisation */
   bool is_factored;           /* the solver holds a factorisation made near x */
@@ -49,10 +56,13 @@ static double dot(const double *a, const double *b, size_t n) {
 
 static double norm(const double *a, size_t n) { return sqrt(dot(a, a, n)); }
 
-static double weighted_square(const state *t) {
+/* nu s.D s with the damping of the last factorisation. */
+static double damped_square(const state *t) {
   double sum = 0;
-  for (int32_t i = 0; i < t->n; i++) sum += t->diagonal[i] * dot(t->s + 3 * (size_t)i, t->s + 3 * (size_t)i, 3);
-  return sum;
+  for (int32_t i = 0; i < t->n; i++) sum += t->shift[i] * dot(t->s + 3 * (size_t)i, t->s + 3 * (size_t)i, 3);
+  if (t->metric == NULL || t->nu_factored == 0) return sum;
+  fs_sparse_multiply(t->metric, t->s, t->product);
+  return sum + t->nu_factored * dot(t->s, t->product, 3 * (size_t)t->n);
 }
 
 static void set_diagonal(state *t) {
@@ -83,17 +93,19 @@ static fs_status find_step(fs_context *ctx, const fs_objective *o, state *t, fs_
                            int32_t *n_factorisations) {
   fs_status status = FS_OK;
   while (true) {
-    for (int32_t i = 0; i < t->n; i++) t->shift[i] = t->nu * t->diagonal[i];
-    FS_TRY(fs_solver_factor(ctx, t->solver, &t->hessian, t->shift, &t->is_factored));
+    double nu = t->metric != NULL ? t->nu.least + of_diagonal * t->nu.now * t->nu.now : t->nu.now;
+    t->nu_factored = t->nu.now;
+    for (int32_t i = 0; i < t->n; i++) t->shift[i] = nu * t->diagonal[i];
+    FS_TRY(fs_solver_factor_sum(ctx, t->solver, &t->hessian, t->nu.now, t->metric, t->shift, &t->is_factored));
     report->n_factorisations++;
     ++*n_factorisations;
     if (t->is_factored) break;
     if (*n_factorisations >= MAX_TRIALS) {
-      status = fs_fail(ctx, FS_ERR_NUMERIC, "the Hessian is not positive definite even with a damping of %g", t->nu);
+      status =
+          fs_fail(ctx, FS_ERR_NUMERIC, "the Hessian is not positive definite even with a damping of %g", t->nu.now);
       goto done;
     }
-    t->nu_failed = fmax(t->nu_failed, t->nu);
-    t->nu = t->nu == 0 ? 1e-9 : t->nu * (t->nu < 1e-4 ? 10 : 4);
+    fs_nu_raise_indefinite(&t->nu);
   }
   fs_memory_clear(&t->memory);
   FS_TRY(solve(ctx, o, t, t->g, t->s));
@@ -102,35 +114,10 @@ done:
   return status;
 }
 
-/* has_failed: the step took several factorisations. */
-static void lower_damping(state *t, double gain, bool has_failed) {
-  if (fabs(gain - 1) < 0.002 && !has_failed) { /* the model is right: what failed was elsewhere */
-    t->nu *= 1e-4;
-    t->nu_failed *= 1e-3;
-  } else if (gain > 0.9)
-    t->nu *= 0.01;
-  else if (gain > 0.75)
-    t->nu *= 0.1;
-  else if (gain < 0.25)
-    t->nu *= 4;
-  t->growth = 2;
-  t->nu = fmax(t->nu, 3 * t->nu_failed);
-  t->nu_failed = t->nu_failed < 1e-12 ? 0 : 0.1 * t->nu_failed;
-  if (t->nu < t->nu_min) t->nu = t->nu_min;
-  if (t->nu < 1e-15) t->nu = 0;
-}
-
-static void raise_damping(state *t) {
-  t->nu_failed = fmax(t->nu_failed, t->nu);
-  t->nu = fmax(t->nu, 1e-8) * fmax(t->growth, 4);
-  t->growth *= 2;
-}
-
 static fs_status state_create(fs_context *ctx, const fs_objective *objective, state *t) {
   fs_status status = FS_OK;
   size_t n = (size_t)objective->n;
   t->n = objective->n;
-  t->growth = 2;
   t->solver = objective->solver;
   t->memory.n = 3 * n;
   t->hessian = *objective->pattern;
@@ -142,6 +129,7 @@ static fs_status state_create(fs_context *ctx, const fs_objective *objective, st
   FS_ALLOC(ctx, t->diagonal, n);
   FS_ALLOC(ctx, t->shift, n);
   FS_ALLOC(ctx, t->hessian.value, 9 * (size_t)t->hessian.col_start[n]);
+  if (objective->metric != NULL) FS_ALLOC(ctx, t->product, 3 * n);
   if (objective->normal != NULL) {
     FS_ALLOC(ctx, t->v, 3 * n);
     FS_ALLOC(ctx, t->w, 3 * n);
@@ -157,6 +145,7 @@ static void state_free(fs_context *ctx, state *t) {
   fs_release(ctx, t->s);
   fs_release(ctx, t->diagonal);
   fs_release(ctx, t->shift);
+  fs_release(ctx, t->product);
   fs_release(ctx, t->v);
   fs_release(ctx, t->w);
   fs_release(ctx, t->hessian.value);
@@ -210,7 +199,7 @@ done:
 static fs_status shorten_step(const fs_objective *o, state *t, double *predicted, double *gain, double *length) {
   fs_status status = FS_OK;
   size_t n = 3 * (size_t)t->n;
-  double a = -dot(t->g, t->s, n), curvature = a - t->nu * weighted_square(t), shorter = 1;
+  double a = -dot(t->g, t->s, n), curvature = a - damped_square(t), shorter = 1;
   for (int i = 0; i < MAX_SHORTENED && !(*gain > 0.1) && *predicted > rounding * fabs(t->f); i++) {
     for (size_t k = 0; k < n; k++) t->s[k] *= 0.3;
     shorter *= 0.3;
@@ -227,7 +216,7 @@ done:
 static fs_status lengthen_step(const fs_objective *o, state *t, double *predicted, double *gain) {
   fs_status status = FS_OK;
   size_t n = 3 * (size_t)t->n;
-  double a = -dot(t->g, t->s, n), curvature = a - t->nu * weighted_square(t), length = 1;
+  double a = -dot(t->g, t->s, n), curvature = a - damped_square(t), length = 1;
   double best = curvature > 0 ? a / curvature : INFINITY;
   while (length < MAX_LENGTH && best > 2 * length && *gain > 0.75) {
     double factor = fmin(best / length, 3), f = t->f_trial, old_predicted = *predicted, old_gain = *gain;
@@ -257,11 +246,11 @@ static fs_status newton_step(fs_context *ctx, const fs_objective *o, state *t, f
   FS_TRY(o->hessian(o->self, t->x, &f_unused, t->s, &t->hessian));
   report->n_hessians++;
   set_diagonal(t);
+  if (o->metric != NULL) FS_TRY(o->metric(o->self, t->x, &t->metric));
   if (o->normal != NULL) FS_TRY(o->normal(o->self, t->x, t->v));
   while (true) {
     FS_TRY(find_step(ctx, o, t, report, &n_factorisations));
-    t->nu_factored = t->nu;
-    predicted = -0.5 * dot(t->g, t->s, n) + 0.5 * t->nu * weighted_square(t);
+    predicted = -0.5 * dot(t->g, t->s, n) + 0.5 * damped_square(t);
     FS_TRY(try_step(o, t, predicted, &gain));
     shortened = 1;
     if (!(gain > 1e-4)) FS_TRY(shorten_step(o, t, &predicted, &gain, &shortened));
@@ -270,10 +259,10 @@ static fs_status newton_step(fs_context *ctx, const fs_objective *o, state *t, f
       *is_stuck = true;
       goto done;
     }
-    raise_damping(t);
+    fs_nu_raise_rejected(&t->nu);
   }
   if (shortened == 1) FS_TRY(lengthen_step(o, t, &predicted, &gain));
-  lower_damping(t, shortened < 1 ? 0 : gain, n_factorisations > 1);
+  fs_nu_lower(&t->nu, shortened < 1 ? 0 : gain, n_factorisations > 1, predicted <= short_way * fabs(t->f));
   FS_TRY(accept(ctx, t, report, gain, n_factorisations, predicted));
   *is_taken = true;
 done:
@@ -293,10 +282,7 @@ static fs_status quasi_newton_step(fs_context *ctx, const fs_objective *o, state
   fs_memory_after(&t->memory, t->s, alpha);
   for (size_t i = 0; i < n; i++) t->s[i] = -t->s[i];
   predicted = -0.5 * dot(t->g, t->s, n);
-  if (!(predicted > 0 &&
-        ((predicted <= (report->n_hessians == 0 ? worth_going_on_old : worth_going_on) * t->predicted) ||
-         predicted <= rounding * fabs(t->f))))
-    goto done;
+  if (!(predicted > 0 && (predicted <= worth_going_on * t->predicted || predicted <= rounding * fabs(t->f)))) goto done;
   FS_TRY(try_step(o, t, predicted, &gain));
   *is_stuck = gain <= 0.1 && predicted <= rounding * fabs(t->f);
   if (!(gain > 0.1)) goto done;
@@ -361,10 +347,12 @@ fs_status fs_minimise(fs_context *ctx, const fs_objective *o, const fs_minimise_
                       fs_minimise_report *report) {
   fs_status status = FS_OK;
   state t = {.x = x,
-             .nu = options->damping->nu,
-             .nu_min = options->least_damping,
-             /* what failed on the way here must not keep the last steps from being Newton's */
-             .nu_failed = options->is_newton ? 0 : options->damping->nu_failed,
+             .nu = {.now = options->damping->nu,
+                    .least = options->least_damping,
+                    .growth = 2,
+                    .failed = options->damping->nu_failed,
+                    .of_metric = o->metric != NULL},
+             .nu_factored = options->damping->nu_factored,
              .is_factored = options->damping->is_factored};
   fs_minimise_report r = {.stop = FS_MINIMISE_ITERATIONS};
   double gradient_start = options->gradient_start;
@@ -395,7 +383,7 @@ done:
     status = FS_OK;
   }
   if (status == FS_OK) *report = r;
-  *options->damping = (fs_damping){t.nu, t.nu_failed, t.is_factored};
+  *options->damping = (fs_damping){t.nu.now, t.nu.failed, t.nu_factored, t.is_factored};
   state_free(ctx, &t);
   return status;
 }

@@ -17,6 +17,9 @@ typedef struct fs_objective {
   fs_status (*hessian)(void *self, const double *x, double *f, double *g, fs_sparse *hessian);
   /* A vector v[3 n] to which steps stay orthogonal; NULL: none. The Hessian need only be right on such steps. */
   fs_status (*normal)(void *self, const double *x, double *v);
+  /* The matrix by which steps from x are damped, semidefinite, on the pattern of the Hessian, valid until the next call; NULL:
+     the diagonal of the Hessian. */
+  fs_status (*metric)(void *self, const double *x, const fs_sparse **metric);
 } fs_objective;
 
 typedef enum fs_minimise_stop {
@@ -32,9 +35,10 @@ typedef struct fs_minimise_step {
   double value, gradient, damping, length, gain;
 } fs_minimise_step;
 
-/* The damping that the next step begins with, relative to the diagonal of the Hessian: 1 far from a minimum, 0 near. */
+/* The damping that the next step begins with, relative to the metric: 1 far from a minimum, 0 near. */
 typedef struct fs_damping {
   double nu, nu_failed; /* nu_failed: memory of damping that did not suffice, 0 at first */
+  double nu_factored;   /* that of the last factorisation */
   bool is_factored; /* the solver holds a factorisation of a similar function from near the start: it is tried first */
 } fs_damping;
 
@@ -45,7 +49,7 @@ typedef struct fs_minimise_options {
   double decrease_tolerance; /* predicted decrease relative to |f| */
   fs_damping *damping;       /* in and out */
   bool is_newton;            /* every step has a Hessian of its own: quadratic convergence near the minimum */
-  double least_damping;      /* above 0 where the minimum is not isolated: rigid motions */
+  double least_damping;      /* relative to the diagonal; above 0 where the minimum is not isolated: rigid motions */
   bool (*monitor)(void *user, const fs_minimise_step *step); /* after every accepted step; false cancels; may be NULL */
   void *user;
 } fs_minimise_options;

@@ -103,8 +103,8 @@ static void spread_pattern(fs_solver *s) {
     }
 }
 
-/* s->value from the values of a, whose blocks are transposed where the order turns them. */
-static void spread_values(fs_solver *s, const fs_sparse *a) {
+/* s->value = factor times the values of a, or added; their blocks are transposed where the order turns them. */
+static void spread_values(fs_solver *s, double factor, const fs_sparse *a, bool is_added) {
   for (int32_t j = 0; j < a->n_blocks; j++) {
     int32_t n = a->col_start[j + 1] - a->col_start[j];
     for (int32_t b = 0; b < n; b++) {
@@ -114,7 +114,10 @@ static void spread_values(fs_solver *s, const fs_sparse *a) {
       double *to = s->value + 9 * (size_t)s->col_start[column] + 3 * (size_t)s->place[k];
       bool is_turned = s->number[i] < s->number[j];
       for (int c = 0; c < 3; c++)
-        for (int r = 0; r < 3; r++) to[stride * (size_t)c + r] = is_turned ? from[3 * n * r + c] : from[3 * n * c + r];
+        for (int r = 0; r < 3; r++) {
+          double value = factor * (is_turned ? from[3 * n * r + c] : from[3 * n * c + r]);
+          to[stride * (size_t)c + r] = is_added ? to[stride * (size_t)c + r] + value : value;
+        }
     }
   }
 }
@@ -219,8 +222,14 @@ void fs_solver_free(fs_context *ctx, fs_solver *s) {
 }
 
 fs_status fs_solver_factor(fs_context *ctx, fs_solver *s, const fs_sparse *a, const double *shift, bool *is_definite) {
+  return fs_solver_factor_sum(ctx, s, a, 0, NULL, shift, is_definite);
+}
+
+fs_status fs_solver_factor_sum(fs_context *ctx, fs_solver *s, const fs_sparse *a, double nu, const fs_sparse *b,
+                               const double *shift, bool *is_definite) {
   double begin = fs_clock_processor_seconds();
-  spread_values(s, a);
+  spread_values(s, 1, a, false);
+  if (b != NULL && nu != 0) spread_values(s, nu, b, true);
   for (int32_t j = 0; j < a->n_blocks; j++)
     for (int c = 0; c < 3; c++) s->value[s->start[3 * s->number[j] + c] + c] += shift[j];
   if (!cholmod_factorize(&s->matrix, s->factor, &s->common)) return failed(ctx, s, "factorisation");

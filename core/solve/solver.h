@@ -17,6 +17,10 @@ void fs_solver_free(fs_context *ctx, fs_solver *solver); /* NULL is allowed */
 fs_status fs_solver_factor(fs_context *ctx, fs_solver *solver, const fs_sparse *a, const double *shift,
                            bool *is_definite);
 
+/* The same for A + nu B + diag(shift), B on the same pattern; NULL: 0. */
+fs_status fs_solver_factor_sum(fs_context *ctx, fs_solver *solver, const fs_sparse *a, double nu, const fs_sparse *b,
+                               const double *shift, bool *is_definite);
+
 /* What was done so far, and what one factorisation takes. */
 typedef struct fs_solver_costs {
   int32_t n_factorisations;

@@ -137,6 +137,44 @@ static void test_derivatives(void **state) {
   }
 }
 
+/* With normals held Q is a quadratic form in the third derivatives: x H x / 2 = g x / 2 = Q, H nowhere negative, and g that part of
+   the gradient of Q. */
+static void check_held(const fs_kernels *k) {
+  static double x[N * 3 * B], f[2][B], df[2][N * 3 * B], ddf[45 * 9 * B];
+  uint64_t seed = 17;
+  random_jets(&seed, x);
+  k->tangential(x, f[0], df[0], NULL);
+  k->tangential_held(x, f[1], df[1], ddf);
+  for (int l = 0; l < B; l++) {
+    double y[3 * N], Hx = 0, yHy = 0;
+    for (int i = 0; i < 3 * N; i++) {
+      bool is_third = i / 3 >= 5;
+      double expected = is_third ? df[0][i * B + l] : 0;
+      assert_true(fabs(df[1][i * B + l] - expected) <= 1e-12 * (1 + fabs(expected)));
+      y[i] = test_random_real(&seed, -1, 1);
+    }
+    for (int i = 0; i < 3 * N; i++) {
+      Hx = 0;
+      for (int j = 0; j < 3 * N; j++) {
+        int a = i / 3 <= j / 3 ? i : j, b = i / 3 <= j / 3 ? j : i;
+        double second = ddf[(pair(a / 3, b / 3) * 9 + 3 * (a % 3) + b % 3) * B + l];
+        Hx += second * x[j * B + l];
+        yHy += y[i] * second * y[j];
+      }
+      assert_true(fabs(Hx - df[1][i * B + l]) <= 1e-12 * (1 + fabs(Hx)));
+    }
+    assert_true(yHy >= 0);
+    assert_true(fabs(f[1][l] - f[0][l]) <= 1e-13 * (1 + f[0][l]));
+  }
+}
+
+static void test_held(void **state) {
+  const fs_kernels *all[4];
+  int32_t n = fs_kernels_all(all);
+  (void)state;
+  for (int32_t i = 0; i < n; i++) check_held(all[i]);
+}
+
 /* Sums of densities against the densities, with fewer points than a block holds too. */
 static void check_sum(fs_sum_kernel *first, fs_density_kernel *a, fs_sum_kernel *second, fs_density_kernel *b, int n) {
   static double x[N * 3 * B], f[3][B], df[3][N * 3 * B], ddf[3][45 * 9 * B];
@@ -171,6 +209,7 @@ static void test_sums(void **state) {
       check_sum(k->sum_curvature_variation, k->curvature_variation, k->sum_tangential, k->tangential, n);
       check_sum(k->sum_tangential, k->tangential, k->sum_triharmonic, k->triharmonic, n);
       check_sum(k->sum_triharmonic, k->triharmonic, k->sum_curvature_variation, k->curvature_variation, n);
+      check_sum(k->sum_tangential_held, k->tangential_held, k->sum_triharmonic, k->triharmonic, n);
     }
 }
 
@@ -314,13 +353,9 @@ static void test_tensor(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_graphs),
-      cmocka_unit_test(test_tori),
-      cmocka_unit_test(test_derivatives),
-      cmocka_unit_test(test_sums),
-      cmocka_unit_test(test_tangential_definition),
-      cmocka_unit_test(test_contractions),
-      cmocka_unit_test(test_tensor),
+      cmocka_unit_test(test_graphs),       cmocka_unit_test(test_tori),   cmocka_unit_test(test_derivatives),
+      cmocka_unit_test(test_sums),         cmocka_unit_test(test_held),   cmocka_unit_test(test_tangential_definition),
+      cmocka_unit_test(test_contractions), cmocka_unit_test(test_tensor),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -336,6 +336,44 @@ static void test_sums(void **state) {
   assert_true(T.end.integral[4] < T.start.integral[4]);
 }
 
+/* ---- the metric ---- */
+
+static double flat(double x, double y) { return (void)x, (void)y, 0; }
+
+/* A flat net moved within its plane: normals stay as they are and S is 0, so that the metric at C = 0.01 is the Hessian of F. It is
+   the same for any smaller C, and grows with larger ones. */
+static void test_metric(void **state) {
+  fixture f;
+  double value, weight[2];
+  uint64_t seed = 43;
+  const fs_sparse *metric;
+  fs_mesh *grid = test_grid(7, 8, flat);
+  (void)state;
+  test_mesh_disturb(grid, 0.1, &seed);
+  for (int32_t v = 0; v < grid->n_vertices; v++) grid->position[v].z = 0;
+  create(&f, fs_functional_find("penalised"), grid);
+  assert_null(f.objective.metric);
+  f.setup.has_metric = true;
+  f.objective = fs_setup_objective(&f.setup, NULL);
+  double *d = calloc(f.n, sizeof *d), *Hd = calloc(f.n, sizeof *d), *Md = calloc(f.n, sizeof *d);
+  for (size_t i = 0; i < f.n; i++) d[i] = i % 3 == 2 ? 0 : test_random_real(&seed, -1, 1);
+  assert_int_equal(f.objective.metric(f.objective.self, f.x, &metric), FS_OK);
+  fs_sparse_multiply(metric, d, Md);
+  assert_int_equal(f.objective.hessian(f.objective.self, f.x, &value, Hd, f.setup.problem->pattern), FS_OK);
+  fs_sparse_multiply(f.setup.problem->pattern, d, Hd);
+  for (size_t i = 0; i < f.n; i++)
+    if (i % 3 < 2) assert_true(fabs(Md[i] - Hd[i]) <= 1e-10 * sqrt(dot(Hd, Hd, f.n)));
+  assert_true(dot(Hd, Hd, f.n) > 0);
+  weight[0] = fs_setup_metric_weight(&f.setup);
+  f.setup.param[0] = 1e-4;
+  assert_true(fs_setup_metric_weight(&f.setup) == weight[0]);
+  f.setup.param[0] = 0.02;
+  weight[1] = fs_setup_metric_weight(&f.setup);
+  assert_true(fabs(weight[1] - 2 * weight[0]) <= 1e-15 * weight[1] && weight[0] > 0);
+  free(d), free(Hd), free(Md);
+  destroy(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_density_derivatives),
@@ -344,6 +382,7 @@ int main(void) {
       cmocka_unit_test(test_motions),
       cmocka_unit_test(test_clifford),
       cmocka_unit_test(test_sums),
+      cmocka_unit_test(test_metric),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,6 +77,34 @@ static void test_solve(void **state) {
   fs_sparse_free(&ctx, a);
 }
 
+/* A + nu B + diag(shift) in one go against the sum made before. */
+static void test_solve_sum(void **state) {
+  fs_context ctx = test_context();
+  fs_sparse *a = make_band(&ctx, 20), *b = make_band(&ctx, 20);
+  fs_solver *solver = NULL;
+  double shift[20], x[60], ax[60], bx[60], y[60];
+  uint64_t seed = 8;
+  bool is_definite;
+  (void)state;
+  fill_random(a, &seed, 20);
+  fill_random(b, &seed, 30);
+  for (int i = 0; i < 20; i++) shift[i] = 0.1 * i;
+  for (int i = 0; i < 60; i++) x[i] = test_random_real(&seed, -1, 1);
+  fs_sparse_multiply(a, x, ax);
+  fs_sparse_multiply(b, x, bx);
+  for (int i = 0; i < 60; i++) ax[i] += 0.7 * bx[i] + shift[i / 3] * x[i];
+  assert_int_equal(fs_solver_create(&ctx, a, &solver), FS_OK);
+  assert_int_equal(fs_solver_factor_sum(&ctx, solver, a, 0.7, b, shift, &is_definite), FS_OK);
+  assert_true(is_definite);
+  assert_int_equal(fs_solver_solve(&ctx, solver, ax, y), FS_OK);
+  for (int i = 0; i < 60; i++) assert_true(fabs(x[i] - y[i]) <= 1e-12);
+  assert_int_equal(fs_solver_factor_sum(&ctx, solver, a, -5, b, shift, &is_definite), FS_OK);
+  assert_false(is_definite);
+  fs_solver_free(&ctx, solver);
+  fs_sparse_free(&ctx, a);
+  fs_sparse_free(&ctx, b);
+}
+
 static void test_diagonal(void **state) {
   fs_context ctx = test_context();
   fs_sparse *a = make_band(&ctx, 3);
@@ -126,6 +154,40 @@ static bool count_and_cancel(void *user, const fs_minimise_step *step) {
   int *left = user;
   (void)step;
   return --*left > 0;
+}
+
+/* A metric that is blind to the first group, where the function may be indefinite: the diagonal helps. */
+static fs_status r_metric(void *self, const double *x, const fs_sparse **metric) {
+  return (void)x, *metric = self, FS_OK;
+}
+
+static void test_metric(void **state) {
+  fs_context ctx = test_context();
+  fs_sparse *pattern = make_band(&ctx, GROUPS), *metric = make_band(&ctx, GROUPS);
+  const double block[9] = {200, 0, 0, 0, 200, 0, 0, 0, 200};
+  double x[3 * GROUPS];
+  fs_objective objective = {.n = GROUPS,
+                            .pattern = pattern,
+                            .self = metric,
+                            .gradient = r_gradient,
+                            .hessian = r_hessian,
+                            .metric = r_metric};
+  fs_damping damping = {.nu = 1};
+  fs_minimise_options options = {
+      .max_iterations = 200, .gradient_tolerance = 1e-10, .decrease_tolerance = 1e-12, .damping = &damping};
+  fs_minimise_report report;
+  (void)state;
+  for (int32_t i = 1; i < GROUPS; i++) fs_sparse_add(metric, i, i, block);
+  assert_int_equal(fs_solver_create(&ctx, pattern, &objective.solver), FS_OK);
+  for (int i = 0; i < 3 * GROUPS; i++) x[i] = i % 2 == 0 ? -1.2 : 1;
+  assert_int_equal(fs_minimise(&ctx, &objective, &options, x, &report), FS_OK);
+  assert_true(report.stop == FS_MINIMISE_GRADIENT || report.stop == FS_MINIMISE_DECREASE);
+  assert_true(report.n_hessians < 100 && report.gradient < 1e-6);
+  for (int i = 0; i < 3 * GROUPS; i++) assert_true(fabs(fabs(x[i]) - 1) < 1e-2);
+  assert_true(damping.nu == 0); /* Newton steps in the end */
+  fs_solver_free(&ctx, objective.solver);
+  fs_sparse_free(&ctx, pattern);
+  fs_sparse_free(&ctx, metric);
 }
 
 static void test_rosenbrock(void **state) {
@@ -225,7 +287,7 @@ static fs_status w_hessian(void *self, const double *x, double *f, double *g, fs
 static void test_saddle(void **state) {
   fs_context ctx = test_context();
   fs_sparse *pattern = make_band(&ctx, GROUPS);
-  fs_objective objective = {GROUPS, pattern, NULL, NULL, w_gradient, w_hessian, NULL};
+  fs_objective objective = {.n = GROUPS, .pattern = pattern, .gradient = w_gradient, .hessian = w_hessian};
   fs_damping damping = {.nu = 1};
   fs_minimise_options options = {.max_iterations = 100, .decrease_tolerance = 1e-14, .damping = &damping};
   fs_minimise_report report;
@@ -255,8 +317,9 @@ static void test_saddle(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pattern), cmocka_unit_test(test_solve),      cmocka_unit_test(test_diagonal),
-      cmocka_unit_test(test_saddle),  cmocka_unit_test(test_rosenbrock), cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_pattern),    cmocka_unit_test(test_solve),  cmocka_unit_test(test_solve_sum),
+      cmocka_unit_test(test_diagonal),   cmocka_unit_test(test_saddle), cmocka_unit_test(test_metric),
+      cmocka_unit_test(test_rosenbrock), cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
