@@ -27,6 +27,7 @@ static bool record(void *user, const fs_minimise_step *m) {
   if (m->number == 0) c->begin_value = m->value;
   if (m->number == 0 && c->n_earlier_steps > 0) return true; /* the start of a later stage */
   c->last_damping = m->damping;
+  if (c->first_damping == 0 && c->depth < c->n_coarse) c->first_damping = m->damping;
   if (c->report->n_trace < FS_MAX_TRACE) c->report->trace[c->report->n_trace++] = step;
   if (options->iterate != NULL) {
     fs_setup_place(&c->setup, c->depth > 0 ? c->y : c->x);
@@ -63,7 +64,9 @@ static fs_status enter_depth(fs_course *c, int32_t depth) {
   if (c->solver != NULL && c->depth == depth) return FS_OK;
   fs_course_leave_depth(c);
   c->damping.is_factored = false;
-  if (c->n_coarse > depth) c->damping = (fs_damping){.nu = c->setup.has_metric ? 1 : FINER_DAMPING};
+  if (c->n_coarse > depth)
+    c->damping = (fs_damping){.nu = c->setup.has_metric ? fmax(c->first_damping, 1) : FINER_DAMPING};
+  c->first_damping = 0;
   if (depth > 0) {
     reduction = c->coarse[depth - 1];
     c->coarse[depth - 1] = NULL;

@@ -27,6 +27,7 @@ typedef struct fs_course {
   int32_t n_earlier_steps;   /* of the stages before */
   int32_t n_stages;          /* before */
   double last_damping;       /* in the last factorisation */
+  double first_damping;      /* of the first step over these unknowns, which the next begin with; of the coarsest: 0 */
   double value, begin_value; /* at x, and at the start of the last minimisation */
   bool is_out_of_time;
 } fs_course;

@@ -44,6 +44,10 @@ int32_t fs_stages_plan(const fs_setup *s, const fs_fair_options *options, int32_
         .C = last, .level = 1, .tolerance = last < UNIQUE ? POLISH_TOLERANCE : 1e-6, .is_minimum = last < UNIQUE};
   stages[n++] = (fs_stage){
       .C = last, .tolerance = options->polish ? POLISH_TOLERANCE : 1e-12, .is_last = true, .is_minimum = true};
-  for (int32_t i = 0; i < n; i++) stages[i].tolerance = fmax(stages[i].tolerance, options->decrease_tolerance);
+  for (int32_t i = 0; i < n; i++) {
+    if (stages[i].tolerance >= options->decrease_tolerance) continue;
+    stages[i].tolerance = options->decrease_tolerance;
+    stages[i].is_minimum = false; /* who asks for less does not want to pay for the search for saddles */
+  }
   return n;
 }

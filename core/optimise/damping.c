@@ -13,7 +13,7 @@
 static void lower_of_metric(fs_nu *nu, double gain, bool has_failed, bool is_near) {
   nu->good = nu->now;
   if (is_near && gain > 0.5)
-    nu->now = 0;
+    nu->now = nu->now > 0.05 ? 0.1 * nu->now : 0;
   else if (fabs(gain - 1) < 0.01 && !has_failed)
     nu->now *= 0.01;
   else if (gain > 0.9)

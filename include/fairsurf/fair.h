@@ -161,7 +161,7 @@ typedef struct fs_fair_options {
   int32_t max_iterations;    /* 0: 300, or 400 with a tolerance; negative: none, only the energies are reported */
   double gradient_tolerance; /* relative to the start; 0: 1e-8 */
   double decrease_tolerance; /* above 0: stop where a step promises less than this part of the functional; then the
-                                gradient is not asked for */
+                                gradient is not asked for, nor whether the end is a saddle */
   bool polish;               /* lower a continued parameter to a hundredth of its value, as long as a step brings 1e-4:
                                 fairer by a little, squares less even, and the minimum need not be unique */
   bool
