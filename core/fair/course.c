@@ -98,9 +98,9 @@ static fs_status minimise(fs_course *c, const fs_stage *stage, const fs_objectiv
   if (c->setup.wall != NULL) { /* the forces of the wall change after each stage */
     o.decrease_tolerance = fmax(o.decrease_tolerance, c->wall_tolerance);
   } else if (stage->is_last && stage->tolerance <= 1e-12 && !options->along_normals) {
-    /* a Newton step to begin with: what failed on the way here tells nothing about the minimum, and an undamped factorisation
-       proves that it is one */
-    o.is_newton = c->n_coarse == 0; /* small meshes: Hessians cost little, and the steps converge quadratically */
+    /* Hessians of small meshes cost little, and the steps converge quadratically. Else one Newton step to begin with: what failed
+       on the way here tells nothing about the minimum, and an undamped factorisation proves that it is one. */
+    o.is_newton = !c->setup.has_metric || c->n_coarse == 0;
     c->damping.is_factored = false;
     c->damping.nu_failed = 0;
     if (c->setup.has_metric) c->damping.nu = 0;

@@ -22,8 +22,9 @@
 
 enum { MAX_SHORTENED = 3, MAX_LENGTH = 100 };
 enum { MAX_TRIALS = 60 }; /* factorisations for one step: nu has grown beyond any use by then */
-/* Of a quasi-Newton step: its predicted decrease by that of the step before. */
-static const double worth_going_on = 0.5;
+/* Of a quasi-Newton step: its predicted decrease by that of the step before; with a factorisation from before the start, which
+   belongs to another function and was not damped in a metric, and with any other one. */
+static const double worth_going_on_old = 0.1, worth_going_on = 0.5;
 
 /* Predicted decreases relative to f below which the rest of the way is short. */
 static const double short_way = 1e-3;
@@ -275,6 +276,7 @@ static fs_status quasi_newton_step(fs_context *ctx, const fs_objective *o, state
   fs_status status = FS_OK;
   size_t n = 3 * (size_t)t->n;
   double alpha[FS_MEMORY_PAIRS], gain, predicted;
+  double worth = report->n_hessians == 0 && o->metric == NULL ? worth_going_on_old : worth_going_on;
   *is_taken = *is_stuck = false;
   memcpy(t->s, t->g, n * sizeof *t->s);
   fs_memory_before(&t->memory, t->s, alpha);
@@ -282,7 +284,7 @@ static fs_status quasi_newton_step(fs_context *ctx, const fs_objective *o, state
   fs_memory_after(&t->memory, t->s, alpha);
   for (size_t i = 0; i < n; i++) t->s[i] = -t->s[i];
   predicted = -0.5 * dot(t->g, t->s, n);
-  if (!(predicted > 0 && (predicted <= worth_going_on * t->predicted || predicted <= rounding * fabs(t->f)))) goto done;
+  if (!(predicted > 0 && (predicted <= worth * t->predicted || predicted <= rounding * fabs(t->f)))) goto done;
   FS_TRY(try_step(o, t, predicted, &gain));
   *is_stuck = gain <= 0.1 && predicted <= rounding * fabs(t->f);
   if (!(gain > 0.1)) goto done;
