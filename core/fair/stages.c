@@ -17,6 +17,11 @@
    minima by the saddles at lower C. */
 #define CLOSED_TOLERANCE 1e-16
 
+/* Down to this C closed surfaces come to forks. C is halved there, and saddles are left at once, so that all starts take the same
+   way: from 1e-2 to 1e-3 in one step, one of five noisy bitori or bodies of genus 3 ends in another minimum. */
+#define FORKS_C 1e-3
+#define FORKS_TOLERANCE 1e-10
+
 bool fs_is_quadratic(const fs_functional *functional) {
   if (!functional->is_linear) return false;
   for (int32_t t = 0; t < functional->n_terms; t++)
@@ -36,6 +41,8 @@ int32_t fs_stages_plan(const fs_setup *s, const fs_fair_options *options, int32_
   for (int32_t depth = n_coarse; depth > 0; depth--, C = fmax(0.25 * C, last))
     stages[n++] = (fs_stage){.C = C, .depth = depth, .level = 2, .tolerance = 1e-3};
   stages[n++] = (fs_stage){.C = C, .level = 1, .tolerance = C > last ? between : 1e-6};
+  for (double c = C / 2; s->functional->is_scale_free && c > 1.2 * fmax(last, FORKS_C); c /= 2)
+    stages[n++] = (fs_stage){.C = c, .level = 1, .tolerance = FORKS_TOLERANCE, .is_minimum = true};
   for (C /= 10; C > 2 * last && n < FS_MAX_STAGES - 2; C /= 10)
     stages[n++] =
         (fs_stage){.C = C, .level = 1, .tolerance = C < UNIQUE ? BETWEEN_TOLERANCE : 1e-3, .is_minimum = C < UNIQUE};
